@@ -1,0 +1,287 @@
+// Reads a scene file (formats.md). Whatever can be said to be wrong without asking whether a posture is stable is said
+// here, at the value that is wrong.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "gaits/scene.hpp"
+#include "terrain/terrain_loader.hpp"
+
+namespace surefoot::gaits {
+namespace {
+
+using terrain::Foothold;
+using terrain::Node;
+using terrain::Terrain;
+
+constexpr std::int64_t format_version = 1;
+constexpr std::int64_t greatest_seed = 2147483562;  // of the random number generator used by the search
+
+/// One of `words`, or an error that names them and the nearest.
+std::string one_of(const Node& node, std::string_view what, const std::vector<std::string>& words) {
+  std::string word = node.text(what);
+  if (std::find(words.begin(), words.end(), word) != words.end()) return word;
+  const std::string near = terrain::near_miss(word, words);
+  node.fail(fmt::format("{} is '{}'; expected one of {}{}", what, word, fmt::join(words, ", "),
+                        near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+}
+
+Eigen::Vector2d read_point(const Node& node, std::string_view what) {
+  const auto& xy = node.items(what, 2);
+  return {xy[0].number(fmt::format("x of {}", what)), xy[1].number(fmt::format("y of {}", what))};
+}
+
+void check_version(const Node& root) {
+  const Node& version = root.require("surefoot", "the scene");
+  const std::int64_t found = version.integer("surefoot (the format version)");
+  if (found != format_version) {
+    version.fail(fmt::format("format version {} is not known; this program reads version {}", found, format_version));
+  }
+}
+
+Robot read_robot(const Node& node) {
+  node.allow_only({"radius_of_gyration", "reach", "clearance", "mass"}, "robot");
+  Robot robot;
+  robot.radius_of_gyration = node.require("radius_of_gyration", "robot").positive("radius_of_gyration");
+  const Node& reach = node.require("reach", "robot");
+  const auto& ends = reach.items("reach", 2);
+  robot.reach_min = ends[0].not_negative("least reach");
+  robot.reach_max = ends[1].not_negative("greatest reach");
+  if (!(robot.reach_min < robot.reach_max)) {
+    reach.fail(
+        fmt::format("reach is [{}, {}]; the least must be below the greatest", robot.reach_min, robot.reach_max));
+  }
+  if (const Node* clearance = node.find("clearance")) robot.clearance = clearance->not_negative("clearance");
+  if (const Node* mass = node.find("mass")) robot.mass = mass->positive("mass");
+  return robot;
+}
+
+stability::DisturbanceBox read_disturbance(const Node& node) {
+  node.allow_only({"kappa", "nu"}, "disturbance");
+  return {node.require("kappa", "disturbance").not_negative("kappa"),
+          node.require("nu", "disturbance").not_negative("nu")};
+}
+
+Criterion read_criterion(const Node& node) {
+  const std::string word = one_of(node, "criterion", {"robust", "equilibrium", "frictional", "both"});
+  if (word == "robust") return Criterion::robust;
+  if (word == "equilibrium") return Criterion::equilibrium;
+  node.fail(fmt::format("criterion '{}' is not available in this version; available are robust and equilibrium", word));
+}
+
+double read_restitution(const Node& node) {
+  const double e = node.number("restitution");
+  if (!(e > 0 && e < 1)) node.fail(fmt::format("restitution is {}; it must lie between 0 and 1, ends excluded", e));
+  return e;
+}
+
+/// The segment of a chain that arc length s falls on, 0 <= s <= chain length.
+const terrain::Segment& segment_at(const Terrain& ground, int chain, double s) {
+  int index = 0;
+  while (ground.segment(chain, index).s_begin + ground.segment(chain, index).length < s &&
+         ground.segment(chain, index).s_begin + ground.segment(chain, index).length < ground.chain_length(chain)) {
+    ++index;
+  }
+  return ground.segment(chain, index);
+}
+
+Foothold read_foot_by_arc_length(const Node& node, const Terrain& ground) {
+  const Node& chain_node = node.require("chain", "a foot");
+  const Node& s_node = node.require("s", "a foot");
+  const std::int64_t chain = chain_node.integer("chain");
+  if (chain < 0 || chain >= ground.chain_count()) {
+    chain_node.fail(
+        fmt::format("chain {} does not exist; chains are numbered 0 to {}", chain, ground.chain_count() - 1));
+  }
+  const int c = static_cast<int>(chain);
+  const double s = s_node.number("s");
+  const double length = ground.chain_length(c);
+  if (s < 0 || s > length) {
+    s_node.fail(fmt::format("the foot at s = {} is outside chain {}, which is {} m long", s, c, length));
+  }
+  if (auto foothold = ground.foothold_at(c, s)) return *foothold;
+  const terrain::Segment& segment = segment_at(ground, c, s);
+  const double end = segment.s_begin + segment.length;
+  if (s > segment.s_begin && s < end && !segment.surface.foothold) {
+    s_node.fail(
+        fmt::format("the foot at s = {} is on segment {} of chain {}, where no foot may stand", s, segment.index, c));
+  }
+  s_node.fail(fmt::format("the foot at s = {} is on a vertex of chain {}; feet stand inside segments", s, c));
+}
+
+Foothold read_foot_by_x(const Node& node, const Terrain& ground) {
+  const Node& x_node = node.require("x", "a foot");
+  const double x = x_node.number("x");
+  const std::vector<Foothold> found = ground.footholds_at_x(x);
+  if (found.size() == 1) return found.front();
+  if (found.empty()) x_node.fail(fmt::format("there is no foothold at x = {} (a vertex is not a foothold)", x));
+  std::vector<std::string> list;
+  for (const Foothold& foothold : found) {
+    list.push_back(fmt::format("{{chain: {}, s: {}}}", foothold.chain, foothold.s));
+  }
+  x_node.fail(fmt::format("x = {} is ambiguous; footholds there are {}", x, fmt::join(list, ", ")));
+}
+
+std::optional<Foothold> read_foot(const Node& node, const Terrain& ground) {
+  if (node.is_null()) return std::nullopt;
+  node.allow_only({"x", "chain", "s"}, "a foot");
+  if (!node.find("x")) return read_foot_by_arc_length(node, ground);
+  if (node.find("chain") || node.find("s")) node.fail("a foot is given by {x} or by {chain, s}, not by both");
+  return read_foot_by_x(node, ground);
+}
+
+std::pair<int, int> read_support(const Node& node, const Start& start) {
+  const auto& legs = node.items("support", 2);
+  std::array<int, 2> support{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::int64_t leg = legs[k].integer("a leg of support");
+    if (leg < 1 || leg > leg_count)
+      legs[k].fail(fmt::format("leg {} does not exist; legs are numbered 1 to {}", leg, leg_count));
+    support[k] = static_cast<int>(leg) - 1;
+    if (!start.feet[static_cast<std::size_t>(support[k])]) {
+      legs[k].fail(fmt::format("leg {} cannot carry the first stance: it starts in the air", leg));
+    }
+  }
+  if (support[0] == support[1])
+    node.fail(fmt::format("support names leg {} twice; two different legs are needed", support[0] + 1));
+  return std::minmax(support[0], support[1]);
+}
+
+/// Faults of the start that no choice left open can mend: a foot that the given COM, or two feet that any COM, cannot
+/// reach.
+void check_start_reach(const Node& node, const Start& start, const Robot& robot) {
+  // Rounding of a distance between decimal numbers at the limit is no fault of the user's [relative to the greatest
+  // reach].
+  const double slack = 1e-9 * robot.reach_max;
+  const auto carries = [&](int leg) {
+    return start.feet[static_cast<std::size_t>(leg)] &&
+           (!start.support || leg == start.support->first || leg == start.support->second);
+  };
+  int reached = 0;
+  double least_gap = std::numeric_limits<double>::infinity();
+  for (int leg = 0; leg < leg_count; ++leg) {
+    if (!carries(leg)) continue;
+    const Eigen::Vector2d foot = start.feet[static_cast<std::size_t>(leg)]->position;
+    for (int other = 0; other < leg; ++other) {
+      if (!carries(other)) continue;
+      least_gap = std::min(least_gap, (start.feet[static_cast<std::size_t>(other)]->position - foot).norm());
+    }
+    if (!start.com) continue;
+    const double distance = (*start.com - foot).norm();
+    const bool within = distance >= robot.reach_min - slack && distance <= robot.reach_max + slack;
+    reached += within;
+    if (!within && start.support) {
+      node.require("com", "start")
+          .fail(fmt::format("start is unreachable: foot {} is {:.6g} m from com, reach is [{}, {}] m", leg + 1,
+                            distance, robot.reach_min, robot.reach_max));
+    }
+  }
+  if (start.com && reached < 2) {
+    node.require("com", "start")
+        .fail(fmt::format("start is unreachable: {} of the feet within reach [{}, {}] m of com, 2 needed", reached,
+                          robot.reach_min, robot.reach_max));
+  }
+  if (least_gap > 2 * robot.reach_max + slack) {
+    node.require("feet", "start")
+        .fail(fmt::format("start is unreachable: the feet are {:.6g} m apart, more than twice the greatest reach {} m",
+                          least_gap, robot.reach_max));
+  }
+}
+
+Start read_start(const Node& node, const Terrain& ground, const Robot& robot) {
+  node.allow_only({"feet", "support", "com"}, "start");
+  Start start;
+  const Node& feet = node.require("feet", "start");
+  const auto& legs = feet.items("feet", leg_count);
+  int planted = 0;
+  for (std::size_t leg = 0; leg < leg_count; ++leg) {
+    start.feet[leg] = read_foot(legs[leg], ground);
+    planted += start.feet[leg].has_value();
+  }
+  if (planted < 2) feet.fail(fmt::format("{} of the feet given; at least 2 must stand", planted));
+  if (const Node* support = node.find("support")) start.support = read_support(*support, start);
+  if (const Node* com = node.find("com")) start.com = read_point(*com, "com");
+  check_start_reach(node, start, robot);
+  return start;
+}
+
+std::optional<std::pair<double, double>> read_interval(const Node& goal, std::string_view key) {
+  const Node* node = goal.find(key);
+  if (!node) return std::nullopt;
+  const auto& ends = node->items(key, 2);
+  const std::pair interval{ends[0].number(key), ends[1].number(key)};
+  if (interval.first > interval.second) {
+    node->fail(
+        fmt::format("{} is [{}, {}]; the first must not exceed the second", key, interval.first, interval.second));
+  }
+  return interval;
+}
+
+Goal read_goal(const Node& node) {
+  node.allow_only({"com_x", "com_y"}, "goal");
+  Goal goal{read_interval(node, "com_x"), read_interval(node, "com_y")};
+  if (!goal.com_x && !goal.com_y) node.fail("goal needs com_x, com_y or both");
+  return goal;
+}
+
+SearchDefaults read_search(const Node& node) {
+  node.allow_only({"seed", "time_limit", "planner", "objective"}, "search");
+  SearchDefaults search;
+  if (const Node* seed = node.find("seed")) {
+    const std::int64_t value = seed->integer("seed");
+    if (value < 1 || value > greatest_seed)
+      seed->fail(fmt::format("seed is {}; expected 1 to {}", value, greatest_seed));
+    search.seed = static_cast<std::uint32_t>(value);
+  }
+  if (const Node* limit = node.find("time_limit")) search.time_limit = limit->positive("time_limit");
+  if (const Node* planner = node.find("planner")) {
+    search.planner = one_of(*planner, "planner", {"auto", "RRT", "KPIECE1", "EST", "SST"});
+  }
+  if (const Node* objective = node.find("objective")) {
+    search.objective = one_of(*objective, "objective", {"steps", "safety", "distance"});
+  }
+  return search;
+}
+
+Scene read_scene(const Node& root, const std::string& file) {
+  check_version(root);
+  root.allow_only({"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal", "search"},
+                  "the scene");
+  Terrain ground = terrain::load_terrain(root.require("terrain", "the scene"));
+  const Robot robot = read_robot(root.require("robot", "the scene"));
+  const auto box = read_disturbance(root.require("disturbance", "the scene"));
+  Criterion criterion = Criterion::robust;
+  std::optional<double> restitution;
+  if (const Node* stability = root.find("stability")) {
+    stability->allow_only({"criterion", "restitution"}, "stability");
+    if (const Node* node = stability->find("criterion")) criterion = read_criterion(*node);
+    if (const Node* node = stability->find("restitution")) restitution = read_restitution(*node);
+  }
+  Start start = read_start(root.require("start", "the scene"), ground, robot);
+  const Goal goal = read_goal(root.require("goal", "the scene"));
+  SearchDefaults search;
+  if (const Node* node = root.find("search")) search = read_search(*node);
+  const Node* name = root.find("name");
+  return Scene{file,
+               name ? name->text("name") : std::filesystem::path(file).stem().string(),
+               std::move(ground),
+               robot,
+               box,
+               criterion,
+               restitution,
+               std::move(start),
+               goal,
+               std::move(search)};
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& path) { return read_scene(terrain::Document::read_file(path).root(), path); }
+
+Scene parse_scene(std::string_view text, const std::string& name) {
+  return read_scene(terrain::Document::parse(text, name).root(), name);
+}
+
+}  // namespace surefoot::gaits

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Writes a scene of random rubble to standard output: blocks, tilted slabs, loose and slippery pieces.
+
+    python3 maps/make_rubble.py NAME LENGTH SEED TIME_LIMIT
+
+The same arguments give the same bytes. Standard library only.
+"""
+import random
+import sys
+
+PAD = 1.5  # level ground before and after [m]
+ROUGHNESS = 0.14  # greatest change of height from vertex to vertex [m]
+BAND = 0.3  # heights stay within +- this [m]
+
+
+def profile(length, rng):
+    """Vertices of the rubble and the overrides of its segments, by index."""
+    vertices, overrides = [(-PAD, 0.0), (0.0, 0.0)], {}
+    x, y = 0.0, 0.0
+    while x < length - 0.5:
+        upright = vertices[-1][0] == vertices[-2][0]
+        if rng.random() < 0.12 and not upright:  # a block: straight up or down
+            y += 0.12 if y < 0 else -0.12
+        else:
+            x += 0.15 + 0.3 * rng.random()
+            y = min(BAND, max(-BAND, y + ROUGHNESS * (2 * rng.random() - 1)))
+            draw = rng.random()
+            if draw < 0.08:
+                overrides[len(vertices) - 1] = "foothold: false"
+            elif draw < 0.3:
+                overrides[len(vertices) - 1] = "friction: %.2f" % (0.3 + 0.6 * rng.random())
+        vertices.append((round(x, 3), round(y, 3) + 0.0))
+    return vertices + [(length, 0.0), (length + PAD, 0.0)], overrides
+
+
+def main():
+    name, length, seed, time_limit = sys.argv[1], float(sys.argv[2]), int(sys.argv[3]), float(sys.argv[4])
+    vertices, overrides = profile(length, random.Random(seed))
+    rows = [vertices[i:i + 6] for i in range(0, len(vertices), 6)]
+    text = ",\n        ".join(", ".join("[%g, %g]" % v for v in row) for row in rows)
+    print("# Exercises: %g m of rubble. Made by: python3 maps/make_rubble.py %s" % (length, " ".join(sys.argv[1:])))
+    print("surefoot: 1\nname: %s\nterrain:\n  friction: 0.7\n  chains:\n    - vertices: [\n        %s]" % (name, text))
+    print("      segments:")
+    for index, override in overrides.items():
+        print("        %d: {%s}" % (index, override))
+    print("robot: {radius_of_gyration: 0.2, reach: [0.25, 0.95], clearance: 0.15, mass: 12}")
+    print("disturbance: {kappa: 0.08, nu: 0.02}")
+    print("start:\n  feet: [{x: -0.9}, {x: -0.3}, {x: -0.6}]\n  support: [1, 2]")
+    print("goal: {com_x: [%g, %g]}" % (length + 0.4, length + 0.9))
+    print("search: {time_limit: %g}" % time_limit)
+
+
+main()

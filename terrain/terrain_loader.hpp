@@ -1,0 +1,13 @@
+// Reads the `terrain` block of a scene: chains, friction, per-segment overrides. Every fault is reported
+// with file, line and column of the value that is wrong, including geometric ones (zero length, crossing).
+#pragma once
+
+#include "terrain/document.hpp"
+#include "terrain/terrain.hpp"
+
+namespace surefoot::terrain {
+
+/// Throws InputError.
+Terrain load_terrain(const Node& node);
+
+}  // namespace surefoot::terrain

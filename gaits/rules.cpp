@@ -108,7 +108,9 @@ bool clear_of_terrain(const Scene& scene, const Vector2d& from, const Vector2d& 
 
 bool swing_is_free(const Scene& scene, const Vector2d& com, const Vector2d& old_foot, const Vector2d& new_foot) {
   const double radius = scene.robot.reach_min;
-  if (scene.terrain.distance(com, radius) > radius) return true;  // the leg can turn any way
+  if (radius == 0) return true;
+  // distance() looks no further than it is told: a little beyond the radius, so that "further" can be told from "at".
+  if (scene.terrain.distance(com, 1.001 * radius) > radius) return true;  // the leg can turn any way
   const Vector2d from = old_foot - com, to = new_foot - com;
   return scene.terrain.sector_is_free(com, radius, from, to) || scene.terrain.sector_is_free(com, radius, to, from);
 }

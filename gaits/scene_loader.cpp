@@ -77,14 +77,12 @@ double read_restitution(const Node& node) {
   return e;
 }
 
-/// The segment of a chain that arc length s falls on, 0 <= s <= chain length.
-const terrain::Segment& segment_at(const Terrain& ground, int chain, double s) {
-  int index = 0;
-  while (ground.segment(chain, index).s_begin + ground.segment(chain, index).length < s &&
-         ground.segment(chain, index).s_begin + ground.segment(chain, index).length < ground.chain_length(chain)) {
-    ++index;
+/// The segment of a chain that arc length s falls inside of; nullptr on a vertex.
+const terrain::Segment* segment_around(const Terrain& ground, int chain, double s) {
+  for (const terrain::Segment& segment : ground.segments()) {
+    if (segment.chain == chain && s > segment.s_begin && s < segment.s_begin + segment.length) return &segment;
   }
-  return ground.segment(chain, index);
+  return nullptr;
 }
 
 Foothold read_foot_by_arc_length(const Node& node, const Terrain& ground) {
@@ -102,11 +100,10 @@ Foothold read_foot_by_arc_length(const Node& node, const Terrain& ground) {
     s_node.fail(fmt::format("the foot at s = {} is outside chain {}, which is {} m long", s, c, length));
   }
   if (auto foothold = ground.foothold_at(c, s)) return *foothold;
-  const terrain::Segment& segment = segment_at(ground, c, s);
-  const double end = segment.s_begin + segment.length;
-  if (s > segment.s_begin && s < end && !segment.surface.foothold) {
+  const terrain::Segment* segment = segment_around(ground, c, s);
+  if (segment && !segment->surface.foothold) {
     s_node.fail(
-        fmt::format("the foot at s = {} is on segment {} of chain {}, where no foot may stand", s, segment.index, c));
+        fmt::format("the foot at s = {} is on segment {} of chain {}, where no foot may stand", s, segment->index, c));
   }
   s_node.fail(fmt::format("the foot at s = {} is on a vertex of chain {}; feet stand inside segments", s, c));
 }

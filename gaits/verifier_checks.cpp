@@ -1,0 +1,210 @@
+#include "gaits/verifier_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surefoot::gaits::bare {
+
+using stability::RobustOracle;
+using terrain::Segment;
+
+namespace {
+
+// Points of a line, ends included, at which the verdict of the straight-line test is looked at again.
+constexpr int line_samples = 65;
+
+std::string show(const Point& p) { return fmt::format("({:.6g}, {:.6g})", p.x(), p.y()); }
+
+}  // namespace
+
+bool same_factor(double stated, double found) {
+  if (std::isinf(stated) || std::isinf(found)) return stated == found;
+  return std::abs(stated - found) <= safety_factor_tolerance * std::max(std::abs(stated), std::abs(found));
+}
+
+std::optional<Foot> Checks::rebuild(const std::string& place, int leg, const terrain::Foothold& stated) {
+  bool chain_exists = false;
+  double chain_length = 0;
+  for (const Segment& segment : scene_.terrain.segments()) {
+    if (segment.chain != stated.chain) continue;
+    chain_exists = true;
+    chain_length = std::max(chain_length, segment.s_begin + segment.length);
+    if (!(stated.s > segment.s_begin && stated.s < segment.s_begin + segment.length)) continue;
+    if (!segment.surface.foothold) {
+      note(Rule::foothold, place, "foot {} stands on segment {} of chain {}, where no foot may stand", leg + 1,
+           segment.index, segment.chain);
+    }
+    const double part = (stated.s - segment.s_begin) / segment.length;
+    const Foot foot{stated.s, &segment, segment.a + part * (segment.b - segment.a)};
+    compare_with_stated(place, leg, stated, foot);
+    return foot;
+  }
+  if (!chain_exists) {
+    note(Rule::foothold, place, "foot {} stands on chain {}, which does not exist", leg + 1, stated.chain);
+  } else if (stated.s >= 0 && stated.s <= chain_length) {
+    note(Rule::foothold, place, "foot {} stands on a vertex of chain {} (s = {})", leg + 1, stated.chain, stated.s);
+  } else {
+    note(Rule::foothold, place, "foot {} stands at s = {}, outside chain {} of length {:.6g} m", leg + 1, stated.s,
+         stated.chain, chain_length);
+  }
+  return std::nullopt;
+}
+
+void Checks::compare_with_stated(const std::string& place, int leg, const terrain::Foothold& stated, const Foot& foot) {
+  if (stated.segment != foot.segment->index) {
+    note(Rule::foothold, place, "foot {} is said to stand on segment {}, but s = {} is on segment {}", leg + 1,
+         stated.segment, stated.s, foot.segment->index);
+  }
+  // A position is rounded to a double: allow that besides the slack.
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * foot.position.cwiseAbs().maxCoeff();
+  if (!((stated.position - foot.position).cwiseAbs().maxCoeff() <= slack_ + rounding)) {
+    note(Rule::foothold, place, "foot {} is said to stand at {}, but s = {} of chain {} is at {}", leg + 1,
+         show(stated.position), stated.s, stated.chain, show(foot.position));
+  }
+}
+
+void Checks::check_reach(const std::string& place, const Posture& feet, const Point& from, const Point& to) {
+  const auto at = [&](double lambda) {
+    return from == to ? std::string() : fmt::format(" at lambda = {:.6g}", lambda);
+  };
+  for (std::size_t leg = 0; leg < leg_count; ++leg) {
+    if (!feet[leg]) continue;
+    const Distances found = distances_along(feet[leg]->position, from, to);
+    if (!(found.greatest <= scene_.robot.reach_max + slack_)) {
+      note(Rule::reach, place, "foot {} is {:.9g} m from the COM{}; at most {} is allowed", leg + 1, found.greatest,
+           at(found.lambda_greatest), scene_.robot.reach_max);
+    }
+    if (!(found.least >= scene_.robot.reach_min - slack_)) {
+      note(Rule::reach, place, "foot {} is {:.9g} m from the COM{}; at least {} is required", leg + 1, found.least,
+           at(found.lambda_least), scene_.robot.reach_min);
+    }
+  }
+}
+
+void Checks::check_clearance(const std::string& place, const Point& from, const Point& to) {
+  double least = std::numeric_limits<double>::infinity();
+  const Segment* nearest = nullptr;
+  for (const Segment* segment : terrain_near(scene_.terrain, {from, to}, scene_.robot.clearance)) {
+    const double here = distance(from, to, segment->a, segment->b);
+    if (here < least) {
+      least = here;
+      nearest = segment;
+    }
+  }
+  if (nearest && meet(from, to, nearest->a, nearest->b)) {
+    note(Rule::clearance, place, "the COM meets the terrain (chain {}, segment {})", nearest->chain, nearest->index);
+  } else if (nearest && !(least >= scene_.robot.clearance - slack_)) {
+    note(Rule::clearance, place, "the COM comes within {:.9g} m of the terrain (chain {}, segment {}); {} is required",
+         least, nearest->chain, nearest->index, scene_.robot.clearance);
+  }
+}
+
+void Checks::check_leg(const std::string& place, const char* when, int leg, const Point& com, const Foot& foot) {
+  if (!(orientation(foot.segment->a, foot.segment->b, com) > 0)) {
+    note(Rule::leg_visibility, place, "at {} leg {} comes through the ground it stands on (chain {}, segment {})", when,
+         leg + 1, foot.segment->chain, foot.segment->index);
+  }
+  for (const Segment* segment : terrain_near(scene_.terrain, {com, foot.position}, 0)) {
+    if (segment == foot.segment || !meet(com, foot.position, segment->a, segment->b)) continue;
+    note(Rule::leg_visibility, place, "at {} leg {} from {} to {} meets chain {}, segment {}", when, leg + 1, show(com),
+         show(foot.position), segment->chain, segment->index);
+    return;
+  }
+}
+
+void Checks::check_swing(const std::string& place, const Point& com, const Foot& old_foot, const Foot& new_foot) {
+  const double radius = scene_.robot.reach_min - slack_;
+  if (radius <= 0) return;
+  const Point from = old_foot.position - com, to = new_foot.position - com;
+  const Segment *hit_left = nullptr, *hit_right = nullptr;
+  for (const Segment* segment : terrain_near(scene_.terrain, {com}, radius)) {
+    if (!hit_left && meets_sector(com, radius, from, to, segment->a, segment->b)) hit_left = segment;
+    if (!hit_right && meets_sector(com, radius, to, from, segment->a, segment->b)) hit_right = segment;
+  }
+  if (hit_left && hit_right) {
+    note(Rule::swing, place,
+         "the free leg, {} m long, cannot swing from {} to {} about {}: chain {}, segment {} and chain {}, segment {} "
+         "are in the way",
+         scene_.robot.reach_min, show(old_foot.position), show(new_foot.position), show(com), hit_left->chain,
+         hit_left->index, hit_right->chain, hit_right->index);
+  }
+}
+
+RobustOracle Checks::oracle_of_feet(const Posture& feet) const {
+  std::vector<stability::Contact> contacts;
+  for (const auto& foot : feet) {
+    if (foot) contacts.push_back({foot->position, foot->segment->normal, foot->segment->surface.friction});
+  }
+  return RobustOracle(contacts, scene_.robot.radius_of_gyration, scene_.disturbance);
+}
+
+bool Checks::stable(const RobustOracle& oracle, const Point& com) const {
+  return robust() ? oracle.robust(com) : oracle.equilibrium(com);
+}
+
+double Checks::factor(const RobustOracle& oracle, const Point& com) const {
+  return (robust() ? oracle.safety_factor(com) : oracle.equilibrium_factor(com)).value;
+}
+
+void Checks::check_stance_stability(const std::string& place, const Posture& feet, const Point& com, double stated) {
+  const RobustOracle oracle = oracle_of_feet(feet);
+  const double sigma = factor(oracle, com);
+  if (!stable(oracle, com)) {
+    note(Rule::stance_stability, place, "not stable with the COM at {} (safety factor {:.6g})", show(com), sigma);
+  }
+  check_factor(Rule::stance_stability, place, stated, sigma);
+}
+
+void Checks::check_line_stability(const std::string& place, const Posture& feet, const Point& from, const Point& to,
+                                  double stated) {
+  using Outcome = stability::LineVerdict::Outcome;
+  const RobustOracle oracle = oracle_of_feet(feet);
+  bool certified = false;
+  double sigma = 0;
+  if (robust()) {
+    const stability::LineVerdict verdict = oracle.line(from, to);
+    certified = verdict.stable();
+    if (!certified) {
+      note(Rule::transfer_stability, place, "{} at lambda = {:.6g} ({})",
+           verdict.outcome == Outcome::unstable ? "not stable" : "not certified", verdict.lambda, verdict.cause.name());
+    }
+    sigma = oracle.line_safety_factor(from, to).least.value;
+  } else {
+    certified = oracle.line_equilibrium(from, to);
+    if (!certified) {
+      note(Rule::transfer_stability, place, "somewhere on the line the feet cannot balance every wrench of the box");
+    }
+    sigma = oracle.line_equilibrium_factor(from, to).least.value;
+  }
+  sample_line(place, oracle, from, to, sigma, certified);
+  check_factor(Rule::transfer_stability, place, stated, sigma);
+}
+
+// A second look at what the straight-line test says, by the verdicts at points.
+void Checks::sample_line(const std::string& place, const RobustOracle& oracle, const Point& from, const Point& to,
+                         double least_factor, bool certified) {
+  for (int i = 0; i < line_samples; ++i) {
+    const double lambda = static_cast<double>(i) / (line_samples - 1);
+    const Point at = from + lambda * (to - from);
+    const double here = factor(oracle, at);
+    if (certified && !stable(oracle, at)) {
+      note(Rule::transfer_stability, place, "not stable at lambda = {:.6g}, though the straight-line test accepts",
+           lambda);
+      return;
+    }
+    if (here < least_factor && !same_factor(here, least_factor)) {
+      note(Rule::transfer_stability, place,
+           "the safety factor at lambda = {:.6g} is {}, below the least on the line, {}", lambda, here, least_factor);
+      return;
+    }
+  }
+}
+
+void Checks::check_factor(Rule rule, const std::string& place, double stated, double found) {
+  least_factor_ = std::min(least_factor_, found);
+  if (!same_factor(stated, found)) {
+    note(rule, place, "the stated safety factor is {}, but it is {}", stated, found);
+  }
+}
+
+}  // namespace surefoot::gaits::bare

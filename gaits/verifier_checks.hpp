@@ -1,0 +1,69 @@
+// The single checks that the verifier puts together: each looks at one rule at one place of a plan, by brute force, and
+// notes what is broken. Part of the verifier; the search must not use it.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gaits/verifier.hpp"
+#include "gaits/verifier_geometry.hpp"
+
+namespace surefoot::gaits::bare {
+
+/// A foot rebuilt from (chain, s) of the plan.
+struct Foot {
+  double s = 0;  ///< [m]
+  const terrain::Segment* segment = nullptr;
+  Point position = Point::Zero();
+};
+using Posture = std::array<std::optional<Foot>, leg_count>;
+
+class Checks {
+ public:
+  explicit Checks(const Scene& scene) : scene_(scene), slack_(verifier_slack * scene.robot.reach_max) {}
+
+  template <typename... Parts>
+  void note(Rule rule, const std::string& place, fmt::format_string<Parts...> format, Parts&&... parts) {
+    faults_.push_back({rule, place, fmt::format(format, std::forward<Parts>(parts)...)});
+  }
+
+  /// The foot at (chain, s); also compares segment and position with what is stated. Nothing where no foot can be.
+  std::optional<Foot> rebuild(const std::string& place, int leg, const terrain::Foothold& stated);
+  void check_reach(const std::string& place, const Posture& feet, const Point& from, const Point& to);
+  void check_clearance(const std::string& place, const Point& from, const Point& to);
+  void check_leg(const std::string& place, const char* when, int leg, const Point& com, const Foot& foot);
+  void check_swing(const std::string& place, const Point& com, const Foot& old_foot, const Foot& new_foot);
+  void check_stance_stability(const std::string& place, const Posture& feet, const Point& com, double stated);
+  void check_line_stability(const std::string& place, const Posture& feet, const Point& from, const Point& to,
+                            double stated);
+
+  double slack() const { return slack_; }                ///< [m]
+  double least_factor() const { return least_factor_; }  ///< of all stances and lines checked so far
+  std::vector<Fault>& faults() { return faults_; }
+
+ private:
+  void compare_with_stated(const std::string& place, int leg, const terrain::Foothold& stated, const Foot& foot);
+  void check_factor(Rule rule, const std::string& place, double stated, double found);
+  void sample_line(const std::string& place, const stability::RobustOracle& oracle, const Point& from, const Point& to,
+                   double least_factor, bool certified);
+  stability::RobustOracle oracle_of_feet(const Posture& feet) const;
+  bool robust() const { return scene_.criterion == Criterion::robust; }
+  bool stable(const stability::RobustOracle& oracle, const Point& com) const;
+  double factor(const stability::RobustOracle& oracle, const Point& com) const;
+
+  const Scene& scene_;
+  const double slack_;
+  double least_factor_ = std::numeric_limits<double>::infinity();
+  std::vector<Fault> faults_;
+};
+
+/// Whether two safety factors are the same to safety_factor_tolerance.
+bool same_factor(double stated, double found);
+
+}  // namespace surefoot::gaits::bare

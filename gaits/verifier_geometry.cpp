@@ -1,0 +1,103 @@
+#include "gaits/verifier_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace surefoot::gaits::bare {
+namespace {
+
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+double length(const Point& a) { return std::hypot(a.x(), a.y()); }
+
+bool in_box(const Point& a, const Point& b, const Point& p) {
+  return std::min(a.x(), b.x()) <= p.x() && p.x() <= std::max(a.x(), b.x()) && std::min(a.y(), b.y()) <= p.y() &&
+         p.y() <= std::max(a.y(), b.y());
+}
+
+/// Angle [rad] from direction a counter-clockwise to direction b, in [0, 2 pi).
+double turn(const Point& a, const Point& b) {
+  const double angle = std::atan2(cross(a, b), a.dot(b));
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+}  // namespace
+
+Distances distances_along(const Point& point, const Point& a, const Point& b) {
+  const double at_a = length(point - a), at_b = length(point - b);
+  Distances result{std::min(at_a, at_b), std::max(at_a, at_b), at_a <= at_b ? 0.0 : 1.0, at_a >= at_b ? 0.0 : 1.0};
+  const double span = length(b - a);
+  if (span == 0) return result;
+  const Point along = (b - a) / span;
+  const double foot_of_perpendicular = (point - a).dot(along);
+  if (foot_of_perpendicular > 0 && foot_of_perpendicular < span) {
+    const double perpendicular = std::abs(cross(along, point - a));
+    if (perpendicular < result.least) {
+      result.least = perpendicular;
+      result.lambda_least = foot_of_perpendicular / span;
+    }
+  }
+  return result;
+}
+
+long double orientation(const Point& a, const Point& b, const Point& c) {
+  const long double ax = a.x(), ay = a.y();
+  return (b.x() - ax) * (c.y() - ay) - (b.y() - ay) * (c.x() - ax);
+}
+
+bool meet(const Point& p, const Point& q, const Point& a, const Point& b) {
+  const long double a_side = orientation(p, q, a), b_side = orientation(p, q, b);
+  const long double p_side = orientation(a, b, p), q_side = orientation(a, b, q);
+  const bool apart = (a_side > 0) != (b_side > 0) && (p_side > 0) != (q_side > 0);
+  if (apart && a_side != 0 && b_side != 0 && p_side != 0 && q_side != 0) return true;
+  return (a_side == 0 && in_box(p, q, a)) || (b_side == 0 && in_box(p, q, b)) || (p_side == 0 && in_box(a, b, p)) ||
+         (q_side == 0 && in_box(a, b, q));
+}
+
+// Two lines that do not meet are nearest at an end of one of them.
+double distance(const Point& p, const Point& q, const Point& a, const Point& b) {
+  if (meet(p, q, a, b)) return 0;
+  return std::min({distances_along(p, a, b).least, distances_along(q, a, b).least, distances_along(a, p, q).least,
+                   distances_along(b, p, q).least});
+}
+
+// The part of a-b inside the circle is a chord m + t d, t in [t0, t1]; seen from the centre it sweeps less than half a
+// turn. It meets the sector iff one of its ends is in it, or it sweeps across the whole of it.
+bool meets_sector(const Point& centre, double radius, const Point& from, const Point& to, const Point& a,
+                  const Point& b) {
+  const Point m = a - centre, d = b - a;
+  const double quadratic = d.squaredNorm(), half_linear = m.dot(d), constant = m.squaredNorm() - radius * radius;
+  const double discriminant = half_linear * half_linear - quadratic * constant;
+  if (discriminant < 0) return false;
+  const double root = std::sqrt(discriminant);
+  const double t0 = std::max(0.0, (-half_linear - root) / quadratic);
+  const double t1 = std::min(1.0, (-half_linear + root) / quadratic);
+  if (t0 > t1) return false;
+  const Point first = m + t0 * d, last = m + t1 * d;
+  const double opening = turn(from, to);
+  if (turn(from, first) <= opening || turn(from, last) <= opening) return true;
+  const double sweep = turn(first, last);
+  if (sweep <= std::numbers::pi) return turn(first, from) <= sweep;
+  return turn(last, from) <= 2 * std::numbers::pi - sweep;
+}
+
+std::vector<const terrain::Segment*> terrain_near(const terrain::Terrain& terrain, const std::vector<Point>& points,
+                                                  double margin) {
+  Point low = points.front(), high = points.front();
+  for (const Point& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  low.array() -= margin;
+  high.array() += margin;
+  std::vector<const terrain::Segment*> near;
+  for (const terrain::Segment& segment : terrain.segments()) {
+    if (std::max(segment.a.x(), segment.b.x()) >= low.x() && std::min(segment.a.x(), segment.b.x()) <= high.x() &&
+        std::max(segment.a.y(), segment.b.y()) >= low.y() && std::min(segment.a.y(), segment.b.y()) <= high.y()) {
+      near.push_back(&segment);
+    }
+  }
+  return near;
+}
+
+}  // namespace surefoot::gaits::bare

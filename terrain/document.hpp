@@ -1,8 +1,10 @@
 // A YAML (or JSON) file as a plain tree whose every node knows where it stands, so that loaders can
 // say what is wrong with file, line and column. All the traps of the parser are dealt with here, once:
-// trailing content, several documents, duplicate keys, aliases, depth, size, directories, byte-order mark.
+// trailing content, several documents, duplicate keys, aliases, tags, depth, size, unclosed quotes, directories,
+// byte-order mark, control characters. What is read is UTF-8; numbers do not depend on the locale.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
@@ -10,9 +12,15 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace surefoot::terrain {
+
+// Limits of what is read; beyond them InputError. A terrain of a million vertices has three million nodes.
+constexpr std::size_t max_depth = 64;                              // containers within containers
+constexpr std::size_t max_nodes = 16'000'000;                      // 48 bytes each
+constexpr std::size_t max_file_size = std::size_t{512} << 20;      // [bytes]
 
 /// Bad input: one line "file:line:column: message" (no prefix, no line feed).
 class InputError : public std::runtime_error {
@@ -20,29 +28,36 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+struct Source;  // the text that nodes point into
+
+/// One value of the tree. `what` names the value in messages, as "friction" or "robot.reach".
 class Node {
  public:
   enum class Kind { null, scalar, sequence, map };
 
-  Kind kind() const { return kind_; }
-  const std::string& where() const;                      ///< "file:line:column" (built when asked for)
+  Node() = default;
+  Node(Node&&) noexcept = default;
+  Node& operator=(Node&&) noexcept = default;
+
+  Kind kind() const { return static_cast<Kind>(content_.index()); }
+  std::string where() const;                                 ///< "file:line:column", from 1, columns in characters
   [[noreturn]] void fail(const std::string& message) const;  ///< throws InputError at this node
 
-  // Scalars. Each throws InputError saying what was found and what is expected.
-  double number(std::string_view what) const;            ///< finite
+  // Scalars. Each throws InputError saying what was found and what is expected. A quoted scalar is a text, no number.
+  double number(std::string_view what) const;            ///< finite; decimal or exponent form, no leading zeros
   double positive(std::string_view what) const;          ///< finite and > 0
   double not_negative(std::string_view what) const;      ///< finite and >= 0
   std::int64_t integer(std::string_view what) const;     ///< decimal digits only, no octal surprise
   bool boolean(std::string_view what) const;             ///< true | false
-  std::string text(std::string_view what) const;
-  bool is_null() const { return kind_ == Kind::null; }
+  std::string text(std::string_view what) const;         ///< any scalar, as written between its quotes if it has some
+  bool is_null() const { return kind() == Kind::null; }  ///< nothing, ~ or null
 
   // Sequences.
   const std::vector<Node>& items(std::string_view what) const;
   /// Exactly n items.
   const std::vector<Node>& items(std::string_view what, std::size_t n) const;
 
-  // Maps. Keys are unique (checked when the file is read).
+  // Maps. Keys are scalars and unique (checked when the file is read). `what` names the map.
   const std::vector<std::pair<Node, Node>>& entries(std::string_view what) const;
   const Node* find(std::string_view key) const;                     ///< nullptr if absent or not a map
   const Node& require(std::string_view key, std::string_view what) const;
@@ -51,31 +66,40 @@ class Node {
 
  private:
   friend class DocumentBuilder;
-  Kind kind_ = Kind::null;
-  bool quoted_ = false;
-  std::string scalar_;
-  std::vector<Node> items_;
-  std::vector<std::pair<Node, Node>> entries_;
-  const std::string* file_ = nullptr;
-  int line_ = 0, column_ = 0;
+  using Items = std::vector<Node>;
+  using Entries = std::vector<std::pair<Node, Node>>;
+
+  std::string described() const;  // for messages
+  [[noreturn]] void refuse(std::string_view what, std::string_view expected) const;
+  std::string_view plain_scalar(std::string_view what, std::string_view expected) const;
+
+  std::variant<std::monostate, std::string_view, Items, Entries> content_;  // in the order of Kind
+  const Source* source_ = nullptr;
+  std::uint32_t line_ = 0;         // from 0
+  std::uint32_t column_ : 31 = 0;  // from 0, in bytes
+  std::uint32_t quoted_ : 1 = 0;
 };
 
-/// A parsed file. Not copyable: nodes point into it.
+/// A parsed file. Not copyable: nodes point into it (and stay valid when it is moved).
 class Document {
  public:
+  /// Throws InputError: also for a file that is missing, a directory, unreadable, too large, empty or not text.
   static Document read_file(const std::string& path);
+  /// `name` stands for the file in messages.
   static Document parse(std::string_view text, std::string name);
-  const Node& root() const { return *root_; }
-  Document(Document&&) noexcept = default;
-  Document& operator=(Document&&) noexcept = default;
+  const Node& root() const { return root_; }
+  Document(Document&&) noexcept;
+  Document& operator=(Document&&) noexcept;
+  ~Document();
 
  private:
-  Document() = default;
-  std::shared_ptr<const std::string> name_;
-  std::shared_ptr<const Node> root_;
+  Document();
+  std::unique_ptr<Source> source_;
+  Node root_;
 };
 
-/// The candidate nearest to a misspelt word, or "" if none is near (edit distance at most 2 or a third of the word).
+/// The candidate nearest to a misspelt word, or "" if none is near (edit distance at most 2 or a third of the word,
+/// letter case aside; of equally near ones the first).
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace surefoot::terrain

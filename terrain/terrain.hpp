@@ -77,9 +77,9 @@ class SpatialIndex;
 class Terrain {
  public:
   /// Throws TerrainFault (a std::invalid_argument) if there is no chain, if a chain has fewer than two vertices, a
-  /// wrong number of surfaces, a non-finite number, a zero-length segment, negative friction, or if chains cross or touch
-  /// themselves or each other, but for a chain that ends where it began. The first fault in the order of the chains is
-  /// named. (The scene loader reports the same faults with file, line and column.)
+  /// wrong number of surfaces, a non-finite number, a zero-length segment, negative friction, or if chains cross
+  /// or touch themselves or each other, but for a chain that ends where it began. The first fault in the order of the
+  /// chains is named. (The scene loader reports the same faults with file, line and column.)
   explicit Terrain(std::vector<Chain> chains);
   ~Terrain();
   Terrain(Terrain&&) noexcept;

@@ -1,0 +1,214 @@
+#include "terrain/document.hpp"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+#include "terrain/source.hpp"
+
+namespace surefoot::terrain {
+
+/// Turns the parser's events into nodes. The parser is asked for events rather than for its own tree because only
+/// events show aliases, duplicate keys, quotes and every mark.
+class DocumentBuilder : public YAML::EventHandler {
+ public:
+  explicit DocumentBuilder(Source& source) : source_(source) {}
+
+  bool complete() const { return documents_ > 0; }
+  Node take_root() { return std::move(pool_.front()); }
+  std::size_t last_quoted() const { return last_quoted_; }
+  YAML::Mark last_mark() const { return last_mark_; }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ == 1) return;
+    fail(mark, "content after the end of the value; expected one value (is the indentation right?)");
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
+    Node node = make(mark);
+    if (expects_key()) fail(mark, "nothing before the colon; expected a key");
+    // A value left out is marked where the parser noticed, often a line later; its key says it better.
+    if (in_map() && !written_null(mark)) {
+      node.line_ = pool_.back().line_;
+      node.column_ = pool_.back().column_;
+    }
+    pool_.push_back(std::move(node));
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { fail(mark, "aliases (*name) are not accepted"); }
+  void OnAnchor(const YAML::Mark& mark, const std::string& name) override {
+    fail(mark, "anchors (&" + name + ") are not accepted");
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
+    check_tag(mark, tag);
+    Node node = make(mark);
+    node.quoted_ = tag == "!";
+    if (node.quoted_) last_quoted_ = static_cast<std::size_t>(mark.pos);
+    node.content_ = store(static_cast<std::size_t>(mark.pos) + node.quoted_, value);
+    pool_.push_back(std::move(node));
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    open(mark, tag, false);
+  }
+  void OnSequenceEnd() override {
+    const Frame frame = close();
+    Node::Items items;
+    items.reserve(pool_.size() - frame.first);
+    std::move(pool_.begin() + frame.first, pool_.end(), std::back_inserter(items));
+    replace(frame, std::move(items));
+  }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(mark, tag, true);
+  }
+  void OnMapEnd() override {
+    const Frame frame = close();
+    Node::Entries entries;
+    entries.reserve((pool_.size() - frame.first) / 2);
+    for (std::size_t i = frame.first; i + 1 < pool_.size(); i += 2) {
+      entries.emplace_back(std::move(pool_[i]), std::move(pool_[i + 1]));
+    }
+    check_unique(entries);
+    replace(frame, std::move(entries));
+  }
+
+ private:
+  struct Frame {
+    YAML::Mark mark;
+    std::ptrdiff_t first;  // its children are pool_[first ...], keys and values in turn
+    bool map;
+  };
+
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const {
+    throw InputError(source_.place(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column)) + ": " +
+                     message);
+  }
+
+  Node make(const YAML::Mark& mark) {
+    last_mark_ = mark;
+    if (++nodes_ > max_nodes) fail(mark, "more than " + std::to_string(max_nodes) + " values in one file");
+    Node node;
+    node.source_ = &source_;
+    node.line_ = static_cast<std::uint32_t>(mark.line);
+    node.column_ = static_cast<std::uint32_t>(mark.column) & 0x7FFFFFFFu;
+    return node;
+  }
+
+  bool in_map() const { return !frames_.empty() && frames_.back().map; }
+  bool expects_key() const {
+    return in_map() && (static_cast<std::ptrdiff_t>(pool_.size()) - frames_.back().first) % 2 == 0;
+  }
+
+  bool written_null(const YAML::Mark& mark) const {
+    const std::string_view rest = std::string_view(source_.text).substr(
+        std::min(source_.text.size(), static_cast<std::size_t>(mark.pos)));
+    return rest.starts_with('~') || rest.starts_with("null") || rest.starts_with("Null") || rest.starts_with("NULL");
+  }
+
+  void check_tag(const YAML::Mark& mark, const std::string& tag) const {
+    const auto at = static_cast<std::size_t>(mark.pos);
+    const bool written = at < source_.text.size() && source_.text[at] == '!';
+    if (written || !(tag.empty() || tag == "?" || tag == "!")) fail(mark, "tags (" + tag + ") are not accepted");
+  }
+
+  /// A view of the value: into the text where it stands there as it is, else of a copy.
+  std::string_view store(std::size_t position, const std::string& value) {
+    const std::string_view text = source_.text;
+    if (position <= text.size() && text.substr(position, value.size()) == value) {
+      return text.substr(position, value.size());
+    }
+    return source_.extra.emplace_back(value);
+  }
+
+  void open(const YAML::Mark& mark, const std::string& tag, bool map) {
+    check_tag(mark, tag);
+    if (expects_key()) fail(mark, "a list or map as a key; expected a word");
+    if (frames_.size() >= max_depth) fail(mark, "nested deeper than " + std::to_string(max_depth) + " levels");
+    frames_.push_back({mark, static_cast<std::ptrdiff_t>(pool_.size()), map});
+  }
+
+  Frame close() {
+    const Frame frame = frames_.back();
+    frames_.pop_back();
+    return frame;
+  }
+
+  template <class Content>
+  void replace(const Frame& frame, Content content) {
+    pool_.resize(static_cast<std::size_t>(frame.first));
+    Node node = make(frame.mark);
+    node.content_ = std::move(content);
+    pool_.push_back(std::move(node));
+  }
+
+  static void check_unique(const Node::Entries& entries) {
+    std::vector<std::size_t> order(entries.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](std::size_t i) { return std::get<std::string_view>(entries[i].first.content_); };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) { return key(l) < key(r); });
+    std::optional<std::size_t> again;  // the first in the file that repeats an earlier one
+    std::size_t earlier = 0;
+    for (std::size_t k = 1; k < order.size(); ++k) {
+      if (key(order[k - 1]) != key(order[k]) || (again && *again < order[k])) continue;
+      again = order[k];
+      earlier = order[k - 1];
+    }
+    if (!again) return;
+    entries[*again].first.fail("key \"" + std::string(key(*again)) + "\" is given twice; first at line " +
+                               std::to_string(entries[earlier].first.line_ + 1));
+  }
+
+  Source& source_;
+  std::vector<Node> pool_;
+  std::vector<Frame> frames_;
+  std::size_t nodes_ = 0;
+  int documents_ = 0;
+  std::size_t last_quoted_ = std::string::npos;
+  YAML::Mark last_mark_;
+};
+
+Document::Document() : source_(std::make_unique<Source>()) {}
+Document::Document(Document&&) noexcept = default;
+Document& Document::operator=(Document&&) noexcept = default;
+Document::~Document() = default;
+
+Document Document::read_file(const std::string& path) { return parse(read_text(path), path); }
+
+Document Document::parse(std::string_view text, std::string name) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  Document document;
+  Source& source = *document.source_;
+  source.name = std::move(name);
+  source.text = text;
+  source.check_characters();
+
+  std::istringstream stream(source.text);
+  DocumentBuilder builder(source);
+  try {
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(builder)) {  // a second document is refused by the builder
+    }
+  } catch (const YAML::Exception& error) {
+    if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());
+    const YAML::Mark mark = error.mark.is_null() ? builder.last_mark() : error.mark;
+    throw InputError(source.place(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column)) +
+                     ": not valid YAML: " + error.msg);
+  }
+  if (!builder.complete()) throw InputError(source.place(0, 0) + ": nothing but white space or comments");
+  if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());
+  document.root_ = builder.take_root();
+  return document;
+}
+
+}  // namespace surefoot::terrain

@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include "terrain/document.hpp"
+#include "terrain/source.hpp"
+
+namespace surefoot::terrain {
+namespace {
+
+constexpr std::size_t longest_shown = 40;  // characters of a bad value in a message
+constexpr std::size_t longest_word = 64;   // longer ones have no near misses worth naming
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::size_t digits_at(std::string_view text, std::size_t i) {
+  std::size_t end = i;
+  while (end < text.size() && is_digit(text[end])) ++end;
+  return end - i;
+}
+
+enum class Form { not_a_number, leading_zero, integer, decimal };
+
+/// The form of an unsigned number: digits [. digits] [e [sign] digits], with digits on at least one side of the point.
+Form form_of(std::string_view text) {
+  const std::size_t whole = digits_at(text, 0);
+  std::size_t i = whole, part = 0;
+  if (i < text.size() && text[i] == '.') {
+    part = digits_at(text, i + 1);
+    i += 1 + part;
+  }
+  if (whole + part == 0) return Form::not_a_number;
+  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+    ++i;
+    if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
+    const std::size_t exponent = digits_at(text, i);
+    if (exponent == 0) return Form::not_a_number;
+    i += exponent;
+  }
+  if (i != text.size()) return Form::not_a_number;
+  if (whole > 1 && text[0] == '0') return Form::leading_zero;
+  return i == whole ? Form::integer : Form::decimal;
+}
+
+std::string_view without_sign(std::string_view text) {
+  return text.starts_with('+') || text.starts_with('-') ? text.substr(1) : text;
+}
+
+/// std::from_chars knows no plus sign.
+template <class Number>
+std::errc convert(std::string_view text, Number& value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  return std::from_chars(text.data(), text.data() + text.size(), value).ec;
+}
+
+/// On one line and of bounded length, whatever the value holds.
+std::string shown(std::string_view text) {
+  std::string result;
+  std::size_t characters = 0;
+  for (const char c : text) {
+    const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+    if (begins && ++characters > longest_shown) return result + "...";
+    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+  }
+  return result;
+}
+
+std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+
+}  // namespace
+
+std::string Node::where() const { return source_ ? source_->place(line_, column_) : "?"; }
+
+void Node::fail(const std::string& message) const { throw InputError(where() + ": " + message); }
+
+std::string Node::described() const {
+  switch (kind()) {
+    case Kind::null: return "nothing is given";
+    case Kind::scalar: {
+      const std::string value = shown(std::get<std::string_view>(content_));
+      return quoted_ || value.empty() ? "\"" + value + "\" is a text" : value + " is given";
+    }
+    case Kind::sequence: return "a list of " + counted(std::get<Items>(content_).size(), "item") + " is given";
+    case Kind::map: break;
+  }
+  return "a map is given";
+}
+
+void Node::refuse(std::string_view what, std::string_view expected) const {
+  fail(std::string(what) + ": " + described() + "; expected " + std::string(expected));
+}
+
+std::string_view Node::plain_scalar(std::string_view what, std::string_view expected) const {
+  if (kind() != Kind::scalar || quoted_) refuse(what, expected);
+  return std::get<std::string_view>(content_);
+}
+
+double Node::number(std::string_view what) const {
+  const std::string_view text = plain_scalar(what, "a number");
+  const auto fail_with = [&](const char* reason) {
+    fail(std::string(what) + ": " + shown(text) + " " + reason);
+  };
+  const Form form = form_of(without_sign(text));
+  if (form == Form::not_a_number) fail_with("is not a finite decimal number; expected a number such as 0.25 or 1e-3");
+  if (form == Form::leading_zero) fail_with("has a leading zero; expected a decimal number without");
+  double value = 0;
+  if (convert(text, value) != std::errc() || !std::isfinite(value)) {
+    fail_with("is too large or too small for a double; expected a number such as 0.25 or 1e-3");
+  }
+  return value;
+}
+
+double Node::positive(std::string_view what) const {
+  const double value = number(what);
+  if (value > 0) return value;
+  fail(std::string(what) + ": " + shown(std::get<std::string_view>(content_)) +
+       " is not positive; expected a number > 0");
+}
+
+double Node::not_negative(std::string_view what) const {
+  const double value = number(what);
+  if (value >= 0) return value + 0.0;  // -0 becomes 0
+  fail(std::string(what) + ": " + shown(std::get<std::string_view>(content_)) +
+       " is negative; expected a number >= 0");
+}
+
+std::int64_t Node::integer(std::string_view what) const {
+  const std::string_view text = plain_scalar(what, "an integer");
+  const Form form = form_of(without_sign(text));
+  if (form == Form::leading_zero) {
+    fail(std::string(what) + ": " + shown(text) + " has a leading zero; expected an integer without");
+  }
+  if (form != Form::integer) fail(std::string(what) + ": " + shown(text) + " is not an integer; expected an integer");
+  std::int64_t value = 0;
+  if (convert(text, value) != std::errc()) {
+    fail(std::string(what) + ": " + shown(text) + " is out of range; expected an integer of at most 63 bits");
+  }
+  return value;
+}
+
+bool Node::boolean(std::string_view what) const {
+  const std::string_view text = plain_scalar(what, "true or false");
+  if (text == "true") return true;
+  if (text != "false") refuse(what, "true or false");
+  return false;
+}
+
+std::string Node::text(std::string_view what) const {
+  if (kind() != Kind::scalar) refuse(what, "a text");
+  return std::string(std::get<std::string_view>(content_));
+}
+
+const std::vector<Node>& Node::items(std::string_view what) const {
+  if (kind() != Kind::sequence) refuse(what, "a list");
+  return std::get<Items>(content_);
+}
+
+const std::vector<Node>& Node::items(std::string_view what, std::size_t n) const {
+  if (kind() != Kind::sequence || std::get<Items>(content_).size() != n) {
+    refuse(what, "a list of " + counted(n, "item"));
+  }
+  return std::get<Items>(content_);
+}
+
+const std::vector<std::pair<Node, Node>>& Node::entries(std::string_view what) const {
+  if (kind() != Kind::map) refuse(what, "a map (key: value)");
+  return std::get<Entries>(content_);
+}
+
+const Node* Node::find(std::string_view key) const {
+  if (kind() != Kind::map) return nullptr;
+  for (const auto& [name, value] : std::get<Entries>(content_)) {
+    if (std::get<std::string_view>(name.content_) == key) return &value;
+  }
+  return nullptr;
+}
+
+const Node& Node::require(std::string_view key, std::string_view what) const {
+  entries(what);
+  if (const Node* value = find(key)) return *value;
+  fail(std::string(what) + ": \"" + std::string(key) + "\" is missing");
+}
+
+void Node::allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const {
+  for (const auto& [name, value] : entries(what)) {
+    const std::string_view key = std::get<std::string_view>(name.content_);
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    const std::string message = std::string(what) + ": unknown key \"" + shown(key) + "\"; ";
+    const std::string_view before_colon = key.substr(0, key.find(':'));
+    if (before_colon != key && std::find(keys.begin(), keys.end(), before_colon) != keys.end()) {
+      name.fail(message + "a space must follow the colon");
+    }
+    const std::string near = near_miss(key, {keys.begin(), keys.end()});
+    if (!near.empty()) name.fail(message + "did you mean \"" + near + "\"?");
+    std::string list;
+    for (const std::string_view allowed : keys) list += (list.empty() ? "" : ", ") + std::string(allowed);
+    name.fail(message + "expected one of: " + list);
+  }
+}
+
+namespace {
+
+/// Levenshtein distance, with the swap of two neighbouring letters as one edit, letter case aside.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  const auto same = [](char l, char r) {
+    return std::tolower(static_cast<unsigned char>(l)) == std::tolower(static_cast<unsigned char>(r));
+  };
+  std::array<std::vector<std::size_t>, 3> rows;
+  for (auto& row : rows) row.resize(b.size() + 1);
+  std::iota(rows[0].begin(), rows[0].end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    auto& row = rows[i % 3];
+    const auto &above = rows[(i + 2) % 3], &two_above = rows[(i + 1) % 3];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + !same(a[i - 1], b[j - 1])});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
+        row[j] = std::min(row[j], two_above[j - 2] + 1);
+      }
+    }
+  }
+  return rows[a.size() % 3][b.size()];
+}
+
+}  // namespace
+
+std::string near_miss(std::string_view word, const std::vector<std::string>& candidates) {
+  if (word.size() > longest_word) return "";
+  // A word of which no letter need remain is near to nothing.
+  std::size_t nearest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, std::max<std::size_t>(word.size(), 1));
+  std::string best;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > longest_word) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    best = candidate;
+  }
+  return best;
+}
+
+}  // namespace surefoot::terrain

@@ -1,0 +1,114 @@
+#include "terrain/source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "terrain/document.hpp"
+
+namespace surefoot::terrain {
+namespace {
+
+unsigned char byte_at(std::string_view text, std::size_t i) {
+  return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
+}
+
+bool continues(std::string_view text, std::size_t i) { return (byte_at(text, i) & 0xC0) == 0x80; }
+
+/// Length of the well-formed UTF-8 sequence at i (Unicode 15, table 3-7), 0 if there is none.
+std::size_t sequence_length(std::string_view text, std::size_t i) {
+  const unsigned char first = byte_at(text, i), second = byte_at(text, i + 1);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return continues(text, i + 1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F)) return 0;  // overlong, surrogates
+    return continues(text, i + 1) && continues(text, i + 2) ? 3 : 0;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F)) return 0;
+    return continues(text, i + 1) && continues(text, i + 2) && continues(text, i + 3) ? 4 : 0;
+  }
+  return 0;
+}
+
+std::string hexadecimal(unsigned char byte) {
+  std::array<char, 8> digits;
+  std::snprintf(digits.data(), digits.size(), "0x%02x", byte);
+  return digits.data();
+}
+
+bool is_control(std::string_view text, std::size_t i) {
+  const unsigned char c = byte_at(text, i);
+  if (c == '\r') return byte_at(text, i + 1) != '\n';
+  return (c < 0x20 && c != '\t' && c != '\n') || c == 0x7F;
+}
+
+}  // namespace
+
+std::string Source::place(std::size_t line, std::size_t byte_column) const {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < line; ++i) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    begin = end + 1;
+  }
+  std::size_t column = byte_column;
+  const std::size_t end = std::min(text.size(), begin + byte_column);
+  for (std::size_t i = begin; i < end; ++i) column -= continues(text, i);
+  return name + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1);
+}
+
+void Source::fail_at(std::size_t position, const std::string& message) const {
+  const auto at = text.begin() + static_cast<std::ptrdiff_t>(std::min(position, text.size()));
+  const auto line = static_cast<std::size_t>(std::count(text.begin(), at, '\n'));
+  const std::size_t before = position == 0 ? std::string::npos : text.rfind('\n', position - 1);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  throw InputError(place(line, position - begin) + ": " + message);
+}
+
+void Source::check_characters() const {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = sequence_length(text, i);
+    if (length == 0) fail_at(i, "byte " + hexadecimal(byte_at(text, i)) + " is not UTF-8 text");
+    if (length == 1 && is_control(text, i)) {
+      fail_at(i, "control character " + hexadecimal(byte_at(text, i)) + "; expected text");
+    }
+    i += length;
+  }
+}
+
+void Source::check_quotes(std::size_t position) const {
+  const char quote = position < text.size() ? text[position] : '\0';
+  if (quote != '"' && quote != '\'') return;
+  for (std::size_t i = position + 1; i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\') {
+      ++i;
+    } else if (text[i] == quote) {
+      if (quote == '"' || i + 1 >= text.size() || text[i + 1] != quote) return;
+      ++i;
+    }
+  }
+  fail_at(position, std::string("this quote is never closed; expected another ") + quote);
+}
+
+std::string read_text(const std::string& path) {
+  const auto fail = [&path](const std::string& message) { throw InputError(path + ": " + message); };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail("is a directory; expected a file");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) fail("cannot be opened: " + std::generic_category().message(errno));
+  std::string text;
+  std::array<char, 1 << 16> chunk;
+  for (std::size_t got = 0; (got = std::fread(chunk.data(), 1, chunk.size(), file.get())) > 0;) {
+    text.append(chunk.data(), got);
+    if (text.size() > max_file_size) fail("is larger than 512 MiB");
+  }
+  if (std::ferror(file.get())) fail("cannot be read: " + std::generic_category().message(errno));
+  return text;
+}
+
+}  // namespace surefoot::terrain

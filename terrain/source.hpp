@@ -1,0 +1,28 @@
+// The text of a document and its checks, shared by the files that implement document.hpp.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <string_view>
+
+namespace surefoot::terrain {
+
+struct Source {
+  std::string name;
+  std::string text;               ///< without byte-order mark
+  std::deque<std::string> extra;  ///< scalars that do not stand in the text as they are (escapes, folded lines)
+
+  /// "name:line:column" for a place counted from 0, its column in bytes.
+  std::string place(std::size_t line, std::size_t byte_column) const;
+  [[noreturn]] void fail_at(std::size_t position, const std::string& message) const;
+  /// Refuses what is not UTF-8, and control characters (the parser takes some for the end of the file).
+  void check_characters() const;
+  /// Refuses a quoted scalar that begins at `position` and never ends (the parser reads on to the end).
+  void check_quotes(std::size_t position) const;
+};
+
+/// The whole file. Throws InputError.
+std::string read_text(const std::string& path);
+
+}  // namespace surefoot::terrain

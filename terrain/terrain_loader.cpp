@@ -1,0 +1,89 @@
+#include "terrain/terrain_loader.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace surefoot::terrain {
+namespace {
+
+double coordinate(const Node& node, std::string_view what) {
+  const double value = node.number(what);
+  if (std::abs(value) > greatest_coordinate) {
+    node.fail(std::string(what) + ": " + node.text(what) + " is too large; expected at most 1e100 in magnitude");
+  }
+  return value;
+}
+
+Point load_vertex(const Node& node) {
+  const auto& xy = node.items("vertex [x, y]", 2);
+  return {coordinate(xy[0], "x of a vertex"), coordinate(xy[1], "y of a vertex")};
+}
+
+/// The overrides of a chain whose segments all have the terrain's surface so far.
+void load_overrides(const Node& node, std::vector<Surface>& surfaces) {
+  std::vector<bool> given(surfaces.size(), false);
+  for (const auto& [key, value] : node.entries("segments")) {
+    const std::int64_t index = key.integer("segment index");
+    if (index < 0 || index >= static_cast<std::int64_t>(surfaces.size())) {
+      key.fail("segment index: " + std::to_string(index) + " is out of range; expected 0 to " +
+               std::to_string(surfaces.size() - 1));
+    }
+    if (given[index]) key.fail("segment index: " + std::to_string(index) + " is given twice");
+    given[index] = true;
+    const std::string what = "segment " + std::to_string(index);
+    value.allow_only({"friction", "foothold"}, what);
+    Surface& surface = surfaces[index];
+    if (const Node* friction = value.find("friction")) surface.friction = friction->not_negative("friction");
+    if (const Node* foothold = value.find("foothold")) surface.foothold = foothold->boolean("foothold");
+  }
+}
+
+Chain load_chain(const Node& node, const Surface& surface) {
+  node.allow_only({"vertices", "segments"}, "chain");
+  const Node& vertices = node.require("vertices", "chain");
+  const auto& items = vertices.items("vertices");
+  if (items.size() < 2) {
+    vertices.fail("vertices: " + std::to_string(items.size()) + " given; expected at least 2");
+  }
+  Chain chain;
+  chain.vertices.reserve(items.size());
+  for (const Node& item : items) chain.vertices.push_back(load_vertex(item));
+  chain.surfaces.assign(items.size() - 1, surface);
+  if (const Node* overrides = node.find("segments")) load_overrides(*overrides, chain.surfaces);
+  return chain;
+}
+
+/// The node of a vertex that load_chain has read already.
+const Node& vertex_node(const Node& chains, int chain, int vertex) {
+  return chains.items("chains")[chain].require("vertices", "chain").items("vertices")[vertex];
+}
+
+/// Says what Terrain found in the words of the file: at the vertex that is wrong or begins the wrong segment.
+[[noreturn]] void fail_at(const Node& chains, const TerrainFault& fault) {
+  if (fault.chain < 0 || fault.vertex < 0) chains.fail(fault.what());
+  const Node& at = vertex_node(chains, fault.chain, fault.vertex);
+  if (fault.other_chain < 0) at.fail(fault.what());
+  at.fail(std::string(fault.what()) + ", which begins at " +
+          vertex_node(chains, fault.other_chain, fault.other_segment).where());
+}
+
+}  // namespace
+
+Terrain load_terrain(const Node& node) {
+  node.allow_only({"friction", "chains"}, "terrain");
+  Surface surface;
+  surface.friction = node.require("friction", "terrain").not_negative("friction");
+  const Node& list = node.require("chains", "terrain");
+  std::vector<Chain> chains;
+  for (const Node& item : list.items("chains")) chains.push_back(load_chain(item, surface));
+  if (chains.empty()) list.fail("chains: an empty list; expected at least one chain");
+  try {
+    return Terrain(std::move(chains));
+  } catch (const TerrainFault& fault) {
+    fail_at(list, fault);
+  }
+}
+
+}  // namespace surefoot::terrain

@@ -113,9 +113,10 @@ if ((EUID == 0)); then
 fi
 
 # With everything installed.
-for package in g++ cmake ninja-build libeigen3-dev libompl-dev libboost-dev libboost-serialization-dev \
-  libboost-filesystem-dev libboost-system-dev libnlopt-dev libnlopt-cxx-dev libyaml-cpp-dev libcli11-dev \
-  nlohmann-json3-dev libfmt-dev libgmp-dev catch2 libglpk-dev; do echo "$package installed"; done >"$installed"
+for package in g++ cmake ninja-build libeigen3-dev libompl-dev libboost-dev libnlopt-dev \
+  libnlopt-cxx-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgmp-dev catch2 libglpk-dev; do
+  echo "$package installed"
+done >"$installed"
 rm -rf "$tree/build"
 
 FAKE_ERROR="no such thing" run plan x

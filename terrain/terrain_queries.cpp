@@ -113,7 +113,8 @@ double magnitude(const Point& p) { return p.cwiseAbs().maxCoeff(); }
 
 /// Appends the stretches of one segment that faces `centre`. With t the centre's coordinate along the segment and h
 /// its height above it, |s - t| must lie between the half chords that the two circles cut from the segment's line.
-void append_stretches(const Segment& segment, const Point& centre, double least, double greatest,
+/// `end_of_segment` is the arc length at which the next segment begins (by rounding, it may differ from s_begin + length).
+void append_stretches(const Segment& segment, double end_of_segment, const Point& centre, double least, double greatest,
                       std::vector<Stretch>& stretches) {
   const Point from_a = centre - segment.a;
   const double t = from_a.dot(segment.tangent), h = std::abs(cross(segment.tangent, from_a));
@@ -124,7 +125,7 @@ void append_stretches(const Segment& segment, const Point& centre, double least,
   const double inner = least > 0 && inner_radius > h ? std::sqrt((inner_radius - h) * (inner_radius + h)) : 0;
   const auto append = [&](double begin, double end) {
     const double s_begin = segment.s_begin + std::max(begin, 0.0);
-    const double s_end = segment.s_begin + std::min(end, segment.length);
+    const double s_end = std::min(segment.s_begin + std::min(end, segment.length), end_of_segment);
     if (s_begin < s_end) stretches.push_back({&segment, s_begin, s_end});
   };
   if (inner == 0) return append(t - outer, t + outer);
@@ -149,9 +150,10 @@ void Terrain::stretches_within(const Point& centre, double least, double greates
               [&](std::int32_t id, const Piece& piece) {
                 if (piece.box().squared_distance(centre.x(), centre.y()) > limit) return false;
                 const Segment& segment = segments_[id];
-                if (segment.surface.foothold && orientation(piece.a, piece.b, centre) > 0) {
-                  append_stretches(segment, centre, least, greatest, stretches);
-                }
+                if (!segment.surface.foothold || orientation(piece.a, piece.b, centre) <= 0) return false;
+                const bool last = id + 1 == chain_begin_[segment.chain + 1];
+                const double end = last ? segment.s_begin + segment.length : segments_[id + 1].s_begin;
+                append_stretches(segment, end, centre, least, greatest, stretches);
                 return false;
               });
   std::sort(stretches.begin(), stretches.end(), [](const Stretch& l, const Stretch& r) {

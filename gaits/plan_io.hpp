@@ -1,0 +1,56 @@
+// Plans as text and pictures for people, as JSON and YAML for programs (formats.md), and reading them back.
+// Guarantee: the same scene and plan give the same bytes, whatever the locale (time_s is the only value of a plan that
+// varies from run to run; the picture leaves it out); what to_json and to_yaml write, parse_plan reads back to the same
+// doubles and strings. Nothing here judges a plan: that is the verifier's work.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gaits/plan.hpp"
+#include "gaits/scene.hpp"
+#include "terrain/document.hpp"
+
+namespace surefoot::gaits {
+
+struct TextOptions {
+  bool colour = false;   ///< ANSI colours
+  bool explain = false;  ///< spell out what limits each stance and transfer
+};
+
+/// A table of steps with a summary. Safety factors have three significant digits, lengths at least a thousandth of the reach.
+std::string to_text(const Scene& scene, const Plan& plan, const TextOptions& options = {});
+
+/// One line per stance and transfer; numbers in their shortest form that reads back to the same double. Legs are 1..3.
+/// Bytes that are not UTF-8 become U+FFFD. Throws std::invalid_argument if a number is not finite (safety factors may be
+/// infinite: "inf").
+std::string to_json(const Plan& plan);
+std::string to_yaml(const Plan& plan);  ///< the same tree, valid for readers of YAML 1.1 and 1.2
+
+/// A self-contained drawing without scripts: terrain, feet, legs, COM path, R_SS(W) of each stance within reach. Long
+/// journeys are broken into rows like the lines of a page.
+std::string to_svg(const Scene& scene, const Plan& plan);
+
+/// What a limit means: ("UF", {0, 2}) -> "foot 1 slides along +t while foot 3 breaks away". `legs` (0..2) are the planted
+/// legs in increasing order, one per letter of a mode.
+std::string limit_in_words(const std::string& limit, const std::vector<int>& legs);
+
+/// Where the least safety factor of a plan is first met.
+struct WeakestPlace {
+  double sigma = 0;
+  bool in_transfer = false;
+  int index = -1;  ///< of the stance or transfer; -1 in a plan without stances
+  std::string limit;
+};
+WeakestPlace weakest_place(const Plan& plan);
+/// "the transfer of step 3", "the last stance".
+std::string place_in_words(const WeakestPlace& place, int steps);
+
+/// Reads JSON or YAML (JSON is YAML). Throws terrain::InputError with file:line:column. Positions are taken as written;
+/// whether they lie on the scene's terrain, and whether the steps make a gait, is for the verifier to say. Where a foothold
+/// gives no `normal` or `friction` (both are optional and derive from the terrain), Foothold's defaults stand.
+Plan read_plan(const std::string& path);
+Plan parse_plan(std::string_view text, const std::string& name);
+
+}  // namespace surefoot::gaits

@@ -1,0 +1,321 @@
+// The picture of a plan. Layers from back to front: goal, R_SS(W), solid ground, legs, COM path, surface, feet, labels.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "gaits/plan_io.hpp"
+#include "gaits/plan_page.hpp"
+#include "gaits/svg_canvas.hpp"
+#include "gaits/terrain_picture.hpp"
+#include "stability/robust_oracle.hpp"
+
+namespace surefoot::gaits {
+namespace {
+
+using Eigen::Vector2d;
+
+// Okabe and Ito's palette, told apart by colour-blind eyes.
+constexpr std::array<std::string_view, leg_count> leg_colour{"#0072b2", "#d55e00", "#009e73"};
+constexpr std::string_view support_colour = "#cc79a7", goal_colour = "#f0e442", weak_colour = "#e69f00", ink = "#222",
+                           faint = "#666";
+constexpr Paint support_fill{.fill = support_colour, .opacity = 0.1};
+constexpr Paint support_edge{.stroke = support_colour, .width = 0.8, .opacity = 0.45};
+constexpr Paint com_line{.stroke = ink, .width = 1.6};
+constexpr Paint com_dot{.fill = "#fff", .stroke = ink, .width = 1.4};
+constexpr Paint weak_line{.stroke = weak_colour, .width = 7};
+constexpr double dot_radius = 3.2, badge_radius = 6.5;  // [px]
+constexpr double top = 116;                             // [px] title and legend
+
+Paint leg_paint(int leg) { return {.stroke = leg_colour[leg], .width = 1.2, .opacity = 0.6}; }
+
+std::string sigma_text(double sigma) {
+  if (std::isinf(sigma)) return "inf";
+  return sigma < 1 && sigma >= 0.9995 ? "<1" : fmt::format("{:.3g}", sigma);
+}
+
+std::vector<int> planted_legs(const Feet& feet) {
+  std::vector<int> legs;
+  for (int leg = 0; leg < leg_count; ++leg)
+    if (feet[leg]) legs.push_back(leg);
+  return legs;
+}
+
+/// Keeps labels apart: a place is free if no other has been taken within `distance` pixels.
+class Places {
+ public:
+  bool take(const Vector2d& at, double distance) {
+    for (const Vector2d& other : taken_)
+      if ((other - at).norm() < distance) return false;
+    taken_.push_back(at);
+    return true;
+  }
+
+ private:
+  std::vector<Vector2d> taken_;
+};
+
+class PlanPicture {
+ public:
+  PlanPicture(const Scene& scene, const Plan& plan)
+      : scene_(scene), plan_(plan), terrain_(scene.terrain), weakest_(weakest_place(plan)),
+        page_(lay_out(scene, plan, top)), canvas_(page_.width, page_.height, title()) {}
+
+  std::string draw() {
+    heading();
+    legend();
+    for (std::size_t k = 0; k < page_.rows.size(); ++k) draw_row(page_.rows[k], fmt::format("row{}", k + 1));
+    return canvas_.finish();
+  }
+
+ private:
+  std::string title() const {
+    switch (plan_.status) {
+      case Status::solved:
+        return fmt::format("{}: {} step{}, safety factor {}", plan_.scene, plan_.steps(), plan_.steps() == 1 ? "" : "s",
+                           sigma_text(plan_.safety_factor));
+      case Status::no_plan_found:
+        return plan_.scene + ": no plan found";
+      case Status::infeasible:
+        return plan_.scene + ": infeasible";
+    }
+    return plan_.scene;
+  }
+
+  bool has_weakest() const { return weakest_.index >= 0 && !std::isinf(weakest_.sigma); }
+
+  std::string subtitle() const {
+    if (!plan_.reason.empty()) return plan_.reason;
+    if (!has_weakest() || weakest_.limit.empty()) return "";
+    const Stance& stance = plan_.stances[weakest_.index];
+    const Feet feet = weakest_.in_transfer ? feet_during(stance, plan_.transfers[weakest_.index]) : stance.feet;
+    return fmt::format("least in {} ({}: {})", place_in_words(weakest_, plan_.steps()), weakest_.limit,
+                       limit_in_words(weakest_.limit, planted_legs(feet)));
+  }
+
+  void heading() {
+    canvas_.text({30, 36}, title(), {.size = 20, .bold = true});
+    canvas_.text({30, 58}, subtitle(), {.size = 13, .colour = faint});
+    const double metres = round_length(160 / page_.scale);
+    const double left = page_.width - 30 - metres * page_.scale, right = page_.width - 30;
+    canvas_.line({left, 40}, {right, 40}, com_line);
+    for (const double x : {left, right}) canvas_.line({x, 36}, {x, 44}, com_line);
+    canvas_.text({(left + right) / 2, 32}, fmt::format("{:g} m", metres), {.anchor = "middle"});
+  }
+
+  /// Entries flow over at most two lines; widths are estimates, the font is the viewer's.
+  void legend() {
+    double x = 30, y = 82;
+    const auto entry = [&](const std::string& words, auto&& symbol) {
+      const double width = 44 + 6.9 * static_cast<double>(words.size());
+      if (x + width > page_.width - 30 && x > 30) x = 30, y += 20;
+      symbol(Vector2d(x, y));
+      canvas_.text({x + 28, y + 4}, words);
+      x += width;
+    };
+    const Vector2d across(22, 0), middle(11, 0);
+    for (int leg = 0; leg < leg_count; ++leg)
+      entry(fmt::format("leg {}", leg + 1), [&](const Vector2d& at) { badge(at + middle, leg); });
+    entry("COM by step", [&](const Vector2d& at) {
+      canvas_.line(at, at + across, com_line);
+      canvas_.circle(at + middle, dot_radius, com_dot);
+    });
+    if (has_weakest()) entry("least safety factor", [&](const Vector2d& at) { canvas_.line(at, at + across, weak_line); });
+    const auto box = [&](const Vector2d& at, const Paint& paint) { canvas_.rectangle(at - Vector2d(0, 6), 22, 12, paint); };
+    entry("R_SS(W): COMs in balance", [&](const Vector2d& at) {
+      box(at, {.fill = support_colour, .opacity = 0.25});
+      box(at, support_edge);
+    });
+    entry("goal", [&](const Vector2d& at) { box(at, {.fill = goal_colour, .opacity = 0.45}); });
+    for (const auto& key : terrain_.legend())
+      entry(key.label, [&](const Vector2d& at) {
+        canvas_.line(at, at + across, key.paint);
+        if (key.overlay) canvas_.line(at, at + across, *key.overlay);
+      });
+  }
+
+  void draw_row(const PageRow& row, const std::string& clip_id) {
+    const Vector2d corner = row.view({row.window.min().x(), row.window.max().y()});
+    const Vector2d size = row.window.sizes() * page_.scale;
+    canvas_.define_clip(clip_id, corner, size.x(), size.y());
+    canvas_.open_group("row", clip_id);
+    goal(row);
+    for (const int k : row.stances) support(row, k);
+    terrain_.draw_ground(canvas_, row.view, row.window);
+    for (const int k : row.stances) stance(row, k);
+    com_path(row);
+    terrain_.draw_surface(canvas_, row.view, row.window);
+    Places places;
+    feet(row, places);
+    waypoints(row, places);
+    start(row);
+    canvas_.close_group();
+    axis(row);
+  }
+
+  void goal(const PageRow& row) {
+    Eigen::AlignedBox2d box = row.window;
+    if (const auto& x = scene_.goal.com_x) box.min().x() = x->first, box.max().x() = x->second;
+    if (const auto& y = scene_.goal.com_y) box.min().y() = y->first, box.max().y() = y->second;
+    const Eigen::AlignedBox2d shown = box.intersection(row.window);
+    if (shown.isEmpty()) return;
+    const Vector2d corner = row.view({shown.min().x(), shown.max().y()});
+    const Vector2d size = shown.sizes() * page_.scale;
+    constexpr double thinnest = 2;  // [px] a goal may be a single abscissa
+    canvas_.rectangle(corner, std::max(size.x(), thinnest), std::max(size.y(), thinnest),
+                      {.fill = goal_colour, .opacity = 0.3});
+    canvas_.text(corner + Vector2d(size.x() / 2, 15), "goal", {.colour = "#6b6400", .anchor = "middle", .bold = true});
+  }
+
+  /// Where the COM can be: within reach of every planted foot (as a polygon of 32 corners for each).
+  Polyline reachable(const Feet& feet) const {
+    constexpr int corners = 32;
+    Polyline region;
+    for (const auto& foot : feet) {
+      if (!foot) continue;
+      const auto direction = [&](double k) -> Vector2d {
+        const double angle = 2 * std::numbers::pi * k / corners;
+        return {std::cos(angle), std::sin(angle)};
+      };
+      if (region.empty()) {
+        for (int k = 0; k < corners; ++k) region.push_back(foot->position + scene_.robot.reach_max * direction(k));
+        continue;
+      }
+      const double inner = scene_.robot.reach_max * std::cos(std::numbers::pi / corners);
+      for (int k = 0; k < corners; ++k)
+        region = clip(region, -direction(k + 0.5), direction(k + 0.5).dot(foot->position) + inner);
+    }
+    return region;
+  }
+
+  void support(const PageRow& row, int k) {
+    std::vector<stability::Contact> contacts;
+    for (const auto& foot : plan_.stances[k].feet) {
+      if (!foot) continue;
+      const terrain::Segment* segment = terrain_.segment_of(*foot);
+      if (!segment) return;  // a plan of another scene
+      contacts.push_back({foot->position, segment->normal, segment->surface.friction});
+    }
+    const Polyline window = reachable(plan_.stances[k].feet);
+    if (contacts.empty() || window.size() < 3) return;
+    const stability::RobustOracle oracle(contacts, scene_.robot.radius_of_gyration, scene_.disturbance);
+    const Polyline region = oracle.equilibrium_polygon(window);
+    if (region.size() < 3) return;
+    canvas_.polygon(row.view(region), support_fill, "support");
+    canvas_.polygon(row.view(region), support_edge);
+  }
+
+  void stance(const PageRow& row, int k) {
+    canvas_.open_group("stance");
+    for (const int leg : planted_legs(plan_.stances[k].feet))
+      canvas_.line(row.view(plan_.stances[k].com), row.view(plan_.stances[k].feet[leg]->position), leg_paint(leg));
+    canvas_.close_group();
+  }
+
+  /// Transfers that begin or end here.
+  void com_path(const PageRow& row) {
+    const int count = static_cast<int>(plan_.stances.size());
+    for (const bool weak : {true, false})
+      for (int k = 0; k + 1 < count; ++k) {
+        const Vector2d &from = plan_.stances[k].com, &to = plan_.stances[k + 1].com;
+        const bool here = &page_.rows[page_.row_of(from.x())] == &row || &page_.rows[page_.row_of(to.x())] == &row;
+        const bool is_weakest = has_weakest() && weakest_.in_transfer && weakest_.index == k;
+        if (here && (!weak || is_weakest)) canvas_.line(row.view(from), row.view(to), weak ? weak_line : com_line);
+      }
+  }
+
+  void badge(const Vector2d& at, int leg) {
+    canvas_.circle(at, badge_radius, {.fill = leg_colour[leg]});
+    canvas_.text(at + Vector2d(0, 3.2), std::to_string(leg + 1),
+                 {.size = 9, .colour = "#fff", .anchor = "middle", .bold = true});
+  }
+
+  /// A dot where a foot stands, and the number of the leg in the solid ground beneath; numbers that meet give way downwards.
+  void foot(const PageRow& row, const terrain::Foothold& foothold, int leg, bool start, Places& places) {
+    const Vector2d at = row.view(foothold.position);
+    const terrain::Segment* segment = terrain_.segment_of(foothold);
+    const Vector2d inwards = segment ? Vector2d(-segment->normal.x(), segment->normal.y()) : Vector2d(0, 1);
+    canvas_.circle(at, dot_radius + (start ? 1.2 : 0),
+                   start ? Paint{.fill = "#fff", .stroke = leg_colour[leg], .width = 2.2} : Paint{.fill = leg_colour[leg]});
+    constexpr int tries = 3;
+    for (int k = 0; k < tries; ++k) {
+      const Vector2d beneath = at + inwards * (badge_radius + 5 + k * (2 * badge_radius + 1));
+      if (!places.take(beneath, 2 * badge_radius)) continue;
+      badge(beneath, leg);
+      return;
+    }
+  }
+
+  void feet(const PageRow& row, Places& places) {
+    std::set<std::tuple<int, int, double>> drawn;
+    const auto once = [&](const terrain::Foothold& foothold, int leg, bool start) {
+      if (drawn.emplace(leg, foothold.chain, foothold.s).second) foot(row, foothold, leg, start, places);
+    };
+    for (int leg = 0; leg < leg_count; ++leg)
+      if (const auto& first = scene_.start.feet[leg]; first && row.window.contains(first->position)) once(*first, leg, true);
+    for (const int k : row.stances) {
+      for (const int leg : planted_legs(plan_.stances[k].feet)) once(*plan_.stances[k].feet[leg], leg, false);
+      if (k < plan_.steps()) once(plan_.transfers[k].foothold, plan_.transfers[k].leg, false);
+    }
+  }
+
+  std::string tooltip(int k) const {
+    const Stance& stance = plan_.stances[k];
+    std::string words = fmt::format("stance {}: COM ({:g}, {:g}), safety factor {}", k + 1, stance.com.x(), stance.com.y(),
+                                    sigma_text(stance.safety_factor));
+    if (!stance.limit.empty())
+      words += fmt::format(" ({}: {})", stance.limit, limit_in_words(stance.limit, planted_legs(stance.feet)));
+    if (k < plan_.steps())
+      words += fmt::format("; then leg {} is placed, leg {} lifted, safety factor {}", plan_.transfers[k].leg + 1,
+                           plan_.transfers[k].lift + 1, sigma_text(plan_.transfers[k].safety_factor));
+    return words;
+  }
+
+  void waypoints(const PageRow& row, Places& places) {
+    for (const int k : row.stances) {
+      const Vector2d at = row.view(plan_.stances[k].com);
+      const bool is_weakest = has_weakest() && !weakest_.in_transfer && weakest_.index == k;
+      if (is_weakest) canvas_.circle(at, dot_radius + 4, {.fill = weak_colour});
+      canvas_.circle(at, dot_radius, com_dot, tooltip(k));
+      const Vector2d above = at - Vector2d(0, 8);
+      if (places.take(above, 15))
+        canvas_.text(above, std::to_string(k + 1), {.size = 10, .anchor = "middle", .halo = true});
+    }
+  }
+
+  void start(const PageRow& row) {
+    std::optional<Vector2d> at = scene_.start.com;
+    if (!plan_.stances.empty()) at = plan_.stances.front().com;
+    if (!at || &page_.rows[page_.row_of(at->x())] != &row) return;
+    canvas_.text(row.view(*at) - Vector2d(0, 22), "start", {.anchor = "middle", .bold = true, .halo = true});
+  }
+
+  void axis(const PageRow& row) {
+    const double step = round_length(200 / page_.scale);
+    const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+    const double y = row.bottom() + 4;
+    const Paint tick{.stroke = faint, .width = 1};
+    canvas_.line({row.view(row.window.min()).x(), y}, {row.view(row.window.max()).x(), y}, tick);
+    for (double k = std::ceil(row.window.min().x() / step); k * step <= row.window.max().x(); ++k) {
+      const double x = row.view({k * step, 0}).x();
+      canvas_.line({x, y}, {x, y + 4}, tick);
+      canvas_.text({x, y + 15}, fmt::format("{:.{}f} m", k == 0 ? 0 : k * step, decimals),
+                   {.size = 10, .colour = faint, .anchor = "middle"});
+    }
+  }
+
+  const Scene& scene_;
+  const Plan& plan_;
+  TerrainPicture terrain_;
+  WeakestPlace weakest_;
+  Page page_;
+  SvgCanvas canvas_;
+};
+
+}  // namespace
+
+std::string to_svg(const Scene& scene, const Plan& plan) { return PlanPicture(scene, plan).draw(); }
+
+}  // namespace surefoot::gaits

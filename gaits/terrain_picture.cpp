@@ -1,0 +1,179 @@
+#include "gaits/terrain_picture.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace surefoot::gaits {
+namespace {
+
+using terrain::Segment;
+
+constexpr Paint ground{.fill = "#e9e4da"};
+constexpr Paint usual_stroke{.stroke = "#4d4d4d", .width = 2.4};
+constexpr Paint less_stroke{.stroke = "#56b4e9", .width = 3.4};
+constexpr Paint more_stroke{.stroke = "#8c510a", .width = 3.4};
+constexpr Paint no_foothold{.stroke = "#fff", .width = 1.6, .dash = "2 5"};
+
+bool contains(const Polyline& polygon, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[j];
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+double signed_area(const Polyline& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+    twice += (polygon[j] - polygon[0]).x() * (polygon[i] - polygon[0]).y() -
+             (polygon[i] - polygon[0]).x() * (polygon[j] - polygon[0]).y();
+  return twice / 2;
+}
+
+/// The solid lies to the right of a chain. A chain that nearly closes on itself bounds it alone; any other is taken to go on
+/// for ever in the direction to the right of its course, which is down for ground, up for a ceiling.
+Polyline solid_of(const Polyline& chain, double far) {
+  const Eigen::Vector2d course = chain.back() - chain.front();
+  double length = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) length += (chain[i] - chain[i - 1]).norm();
+  constexpr double nearly_closed = 0.1;  // share of the length
+  if (chain.size() > 2 && course.norm() < nearly_closed * length) return signed_area(chain) < 0 ? chain : Polyline();
+  const Eigen::Vector2d away = std::abs(course.x()) >= 0.5 * std::abs(course.y())
+                                   ? Eigen::Vector2d(0, course.x() > 0 ? -far : far)
+                                   : Eigen::Vector2d(course.y() > 0 ? far : -far, 0);
+  Polyline solid = chain;
+  solid.push_back(chain.back() + away);
+  solid.push_back(chain.front() + away);
+  return solid;
+}
+
+Eigen::AlignedBox2d bounds_of(const Polyline& points) {
+  Eigen::AlignedBox2d box;
+  for (const auto& p : points) box.extend(p);
+  return box;
+}
+
+/// Whether the segment may show in the window (by its bounding box).
+bool shows(const Segment& segment, const Eigen::AlignedBox2d& window) {
+  return window.intersects(Eigen::AlignedBox2d(segment.a.cwiseMin(segment.b), segment.a.cwiseMax(segment.b)));
+}
+
+}  // namespace
+
+TerrainPicture::TerrainPicture(const terrain::Terrain& terrain) : terrain_(terrain) {
+  std::map<double, double> length_by_friction;
+  for (std::size_t i = 0; i < terrain.segments().size(); ++i) {
+    const Segment& segment = terrain.segments()[i];
+    if (static_cast<std::size_t>(segment.chain) >= chains_.size()) {
+      chains_.push_back({segment.a});
+      chain_begin_.push_back(i);
+    }
+    chains_.back().push_back(segment.b);
+    length_by_friction[segment.surface.friction] += segment.length;
+  }
+  chain_begin_.push_back(terrain.segments().size());
+  const auto shorter = [](const auto& a, const auto& b) { return a.second < b.second; };
+  usual_friction_ = std::max_element(length_by_friction.begin(), length_by_friction.end(), shorter)->first;
+
+  const double far = 4 * terrain.bounds().diagonal().norm();
+  for (std::size_t c = 0; c < chains_.size(); ++c) {
+    Polyline solid = solid_of(chains_[c], far);
+    const Eigen::AlignedBox2d box = bounds_of(solid);
+    for (std::size_t other = 0; other < chains_.size() && !solid.empty(); ++other)
+      for (const auto& p : chains_[other])
+        if (other != c && box.contains(p) && contains(solid, p)) {
+          solid.clear();  // another chain, hence free space, lies there
+          break;
+        }
+    solids_.push_back(std::move(solid));
+  }
+}
+
+void TerrainPicture::draw_ground(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const {
+  for (std::size_t c = 0; c < chains_.size(); ++c) {
+    if (solids_[c].empty()) {
+      hatch(canvas, view, window, static_cast<int>(c));
+      continue;
+    }
+    Polyline shown = clip(solids_[c], Eigen::Vector2d::UnitX(), -window.min().x());
+    shown = clip(shown, -Eigen::Vector2d::UnitX(), window.max().x());
+    shown = clip(shown, Eigen::Vector2d::UnitY(), -window.min().y());
+    shown = clip(shown, -Eigen::Vector2d::UnitY(), window.max().y());
+    if (shown.size() > 2) canvas.polygon(view(shown), ground);
+  }
+}
+
+void TerrainPicture::hatch(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window, int chain) const {
+  constexpr double spacing = 8, depth = 8;  // [px]
+  for (std::size_t i = chain_begin_[chain]; i < chain_begin_[chain + 1]; ++i) {
+    const Segment& segment = terrain_.segments()[i];
+    if (!shows(segment, window)) continue;
+    const Eigen::Vector2d slant = (-segment.normal - segment.tangent) * (depth / view.scale);
+    const int ticks = static_cast<int>(std::min(1e4, segment.length * view.scale / spacing));
+    for (int k = 0; k < ticks; ++k) {
+      const Eigen::Vector2d foot = segment.a + segment.tangent * (segment.length * (k + 0.7) / std::max(1, ticks));
+      if (window.contains(foot)) canvas.line(view(foot), view(foot + slant), {.stroke = "#8a8578", .width = 1});
+    }
+  }
+}
+
+TerrainPicture::Grip TerrainPicture::grip(const Segment& segment) const {
+  const double friction = segment.surface.friction;
+  return friction < usual_friction_ ? Grip::less : friction > usual_friction_ ? Grip::more : Grip::usual;
+}
+
+void TerrainPicture::draw_surface(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const {
+  const auto paint_of = [&](const Segment& s) {
+    const Grip g = grip(s);
+    return g == Grip::usual ? usual_stroke : g == Grip::less ? less_stroke : more_stroke;
+  };
+  const auto alike = [&](const Segment& a, const Segment& b) {
+    return a.chain == b.chain && grip(a) == grip(b) && a.surface.foothold == b.surface.foothold;
+  };
+  const auto& segments = terrain_.segments();
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (!shows(segments[i], window)) continue;
+    const Segment& first = segments[i];
+    Polyline run{first.a, first.b};
+    for (; i + 1 < segments.size() && alike(first, segments[i + 1]) && shows(segments[i + 1], window); ++i)
+      run.push_back(segments[i + 1].b);
+    canvas.polyline(view(run), paint_of(first));
+    if (!first.surface.foothold) canvas.polyline(view(run), no_foothold);
+  }
+}
+
+std::string TerrainPicture::friction_range(Grip wanted) const {
+  double least = HUGE_VAL, greatest = -HUGE_VAL;
+  for (const Segment& segment : terrain_.segments()) {
+    if (grip(segment) != wanted) continue;
+    least = std::min(least, segment.surface.friction);
+    greatest = std::max(greatest, segment.surface.friction);
+  }
+  if (least > greatest) return "";
+  return least == greatest ? fmt::format("friction {:.3g}", least)
+                           : fmt::format("friction {:.3g} to {:.3g}", least, greatest);
+}
+
+std::vector<TerrainPicture::Key> TerrainPicture::legend() const {
+  std::vector<Key> keys{{usual_stroke, {}, friction_range(Grip::usual)}};
+  for (const Grip g : {Grip::less, Grip::more})
+    if (const std::string range = friction_range(g); !range.empty())
+      keys.push_back({g == Grip::less ? less_stroke : more_stroke, {}, range});
+  const auto barred = [](const Segment& s) { return !s.surface.foothold; };
+  if (std::any_of(terrain_.segments().begin(), terrain_.segments().end(), barred))
+    keys.push_back({usual_stroke, no_foothold, "no foothold"});
+  return keys;
+}
+
+const Segment* TerrainPicture::segment_of(const terrain::Foothold& foot) const {
+  if (foot.chain < 0 || foot.chain >= static_cast<int>(chains_.size()) || foot.segment < 0) return nullptr;
+  const std::size_t at = chain_begin_[foot.chain] + static_cast<std::size_t>(foot.segment);
+  return at < chain_begin_[foot.chain + 1] ? &terrain_.segments()[at] : nullptr;
+}
+
+}  // namespace surefoot::gaits

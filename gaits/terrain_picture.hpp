@@ -1,0 +1,49 @@
+// Draws terrain into an SVG canvas: solid ground filled where it is clear which side is solid, hatched where chains nest;
+// the surface by what it offers to a foot. For every picture of a scene.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gaits/svg_canvas.hpp"
+#include "terrain/terrain.hpp"
+
+namespace surefoot::gaits {
+
+class TerrainPicture {
+ public:
+  /// Keeps a reference to the terrain.
+  explicit TerrainPicture(const terrain::Terrain& terrain);
+
+  /// The solid side; `window` [m] is what the picture shows.
+  void draw_ground(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const;
+  /// The surface as strokes: friction by colour, no foothold by dashes.
+  void draw_surface(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const;
+
+  struct Key {
+    Paint paint;
+    std::optional<Paint> overlay;
+    std::string label;
+  };
+  /// What the strokes mean, as far as this terrain uses them.
+  std::vector<Key> legend() const;
+
+  /// Segment of a foothold, nullptr if the terrain has none such.
+  const terrain::Segment* segment_of(const terrain::Foothold& foot) const;
+
+ private:
+  enum class Grip { usual, less, more };
+  Grip grip(const terrain::Segment& segment) const;
+  void hatch(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window, int chain) const;
+  std::string friction_range(Grip grip) const;
+
+  const terrain::Terrain& terrain_;
+  std::vector<Polyline> chains_;  ///< vertices
+  std::vector<std::size_t> chain_begin_;
+  std::vector<Polyline> solids_;  ///< one per chain; empty: to be hatched
+  double usual_friction_ = 0;     ///< of the greatest length of terrain
+};
+
+}  // namespace surefoot::gaits

@@ -113,7 +113,8 @@ double magnitude(const Point& p) { return p.cwiseAbs().maxCoeff(); }
 
 /// Appends the stretches of one segment that faces `centre`. With t the centre's coordinate along the segment and h
 /// its height above it, |s - t| must lie between the half chords that the two circles cut from the segment's line.
-/// `end_of_segment` is the arc length at which the next segment begins (by rounding, it may differ from s_begin + length).
+/// `end_of_segment` is the arc length at which the next segment begins (by rounding not
+/// quite s_begin + length).
 void append_stretches(const Segment& segment, double end_of_segment, const Point& centre, double least, double greatest,
                       std::vector<Stretch>& stretches) {
   const Point from_a = centre - segment.a;

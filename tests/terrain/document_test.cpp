@@ -1,0 +1,253 @@
+// What is read, what is refused, and where and how a refusal says so.
+#include "terrain/document.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace surefoot::terrain {
+namespace {
+
+using namespace std::string_literals;
+
+Document parse(std::string_view text) { return Document::parse(text, "f.yaml"); }
+
+template <class Action>
+std::string error_of(Action&& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string parse_error(std::string_view text) {
+  return error_of([&] { parse(text); });
+}
+
+struct Refusal {
+  std::string text, message;
+};
+
+TEST_CASE("traps of the parser are refused with their place", "[document]") {
+  const std::vector<Refusal> refusals{
+      {"- {x: 0}\nfriction: 0.5\n",
+       "f.yaml:2:1: content after the end of the value; expected one value (is the indentation right?)"},
+      {"[1, 2] 3\n", "f.yaml:1:8: content after the end of the value; expected one value (is the indentation right?)"},
+      {"a: 1\n---\nb: 2\n",
+       "f.yaml:2:1: content after the end of the value; expected one value (is the indentation right?)"},
+      {"a: 1\n...\nb: 2\n",
+       "f.yaml:3:1: content after the end of the value; expected one value (is the indentation right?)"},
+      {"[1, 2]\n}\n", "f.yaml:2:1: not valid YAML: illegal flow end"},
+      {"a: 1\nb: 2\n\"a\": 3\n", "f.yaml:3:1: key \"a\" is given twice; first at line 1"},
+      {"{b: {c: 1, d: 2, c: 3}}", "f.yaml:1:18: key \"c\" is given twice; first at line 1"},
+      {"z: 1\na: 1\nz: 2\na: 2\n", "f.yaml:3:1: key \"z\" is given twice; first at line 1"},
+      {"a: &x 1\nb: *x\n", "f.yaml:1:4: anchors (&x) are not accepted"},
+      {"a: *x\n", "f.yaml:1:4: not valid YAML: the referenced anchor is not defined"},
+      {"a: !!str 1\n", "f.yaml:1:4: tags (tag:yaml.org,2002:str) are not accepted"},
+      {"a: ! 1\n", "f.yaml:1:4: tags (!) are not accepted"},
+      {"!thing {a: 1}\n", "f.yaml:1:1: tags (!thing) are not accepted"},
+      {"? [1, 2]\n: 3\n", "f.yaml:1:3: a list or map as a key; expected a word"},
+      {"{a: 1,, b: 2}", "f.yaml:1:7: nothing before the colon; expected a key"},
+      {"~: 1\n", "f.yaml:1:1: nothing before the colon; expected a key"},
+      {"a: 'x\nb: 3\n", "f.yaml:1:4: this quote is never closed; expected another '"},
+      {"a: \"x\\\"\nb: 3\n", "f.yaml:1:4: this quote is never closed; expected another \""},
+      {"a: 'it''s\n", "f.yaml:1:4: this quote is never closed; expected another '"},
+      {"a: [1, 2\nb: 3\n", "f.yaml:2:2: not valid YAML: end of sequence flow not found"},
+      {"a: b: c\n", "f.yaml:1:5: not valid YAML: illegal map value"},
+      {"a: 1\n\tb: 2\n", "f.yaml:2:1: not valid YAML: illegal tab when looking for indentation"},
+      {"", "f.yaml:1:1: nothing but white space or comments"},
+      {"# only this\n\n", "f.yaml:1:1: nothing but white space or comments"},
+      {"a: 1\nb: \xff\n", "f.yaml:2:4: byte 0xff is not UTF-8 text"},
+      {"\xFF\xFE" "a\0"s, "f.yaml:1:1: byte 0xff is not UTF-8 text"},
+      {"a: \xC0\x80", "f.yaml:1:4: byte 0xc0 is not UTF-8 text"},
+      {"a: \xED\xA0\x80", "f.yaml:1:4: byte 0xed is not UTF-8 text"},
+      {"a: \xE2\x82", "f.yaml:1:4: byte 0xe2 is not UTF-8 text"},
+      {"a: 1\nb\0: 2\n"s, "f.yaml:2:2: control character 0x00; expected text"},
+      {"a: 1\n\x04" "b: 2\n", "f.yaml:2:1: control character 0x04; expected text"},  // ends yaml-cpp's input
+      {"a: 1\rb: 2\r", "f.yaml:1:5: control character 0x0d; expected text"},
+  };
+  for (const auto& [text, message] : refusals) {
+    CAPTURE(text);
+    CHECK(parse_error(text) == message);
+  }
+}
+
+TEST_CASE("nesting is limited, in every style, without exhausting the stack", "[document]") {
+  const auto nested = [](std::size_t depth, const std::string& open, const std::string& close) {
+    std::string text;
+    for (std::size_t i = 0; i < depth; ++i) text += open;
+    text += "1";
+    for (std::size_t i = 0; i < depth; ++i) text += close;
+    return text;
+  };
+  CHECK(parse_error(nested(max_depth, "[", "]")) == "no error");
+  CHECK(parse_error(nested(max_depth + 1, "[", "]")) == "f.yaml:1:65: nested deeper than 64 levels");
+  for (const std::string open : {"[", "{a: ", "- ", "[\n", "? "}) {
+    CAPTURE(open);
+    const std::string error = parse_error(nested(200000, open, ""));
+    CHECK(error.find("nested deeper than 64 levels") + error.find("a list or map as a key") != 2 * std::string::npos);
+  }
+}
+
+TEST_CASE("files that are none are refused by name", "[document]") {
+  const auto folder = std::filesystem::temp_directory_path() / "surefoot_document_test";
+  std::filesystem::create_directories(folder);
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  CHECK(error_of([&] { Document::read_file(folder.string()); }) ==
+        folder.string() + ": is a directory; expected a file");
+  CHECK(error_of([&] { Document::read_file(path("none.yaml")); }) ==
+        path("none.yaml") + ": cannot be opened: No such file or directory");
+  CHECK(error_of([&] { Document::read_file(""); }) == ": cannot be opened: No such file or directory");
+  std::ofstream(path("empty.yaml")).close();
+  CHECK(error_of([&] { Document::read_file(path("empty.yaml")); }) ==
+        path("empty.yaml") + ":1:1: nothing but white space or comments");
+  std::ofstream(path("good.yaml"), std::ios::binary) << "\xEF\xBB\xBF" "a: 1\r\nb: [2,\r\n 3]\r\n";
+  const Document document = Document::read_file(path("good.yaml"));
+  CHECK(document.root().require("a", "file").where() == path("good.yaml") + ":1:4");
+  CHECK(document.root().require("b", "file").items("b", 2)[1].where() == path("good.yaml") + ":3:2");
+  CHECK(document.root().require("b", "file").items("b", 2)[1].integer("b") == 3);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("numbers are read as the nearest double", "[document]") {
+  const std::vector<std::pair<std::string, double>> numbers{
+      {"0", 0.0}, {"-0.3", -0.3}, {"+1.5", 1.5}, {".5", 0.5}, {"5.", 5.0}, {"1e-3", 1e-3}, {"1E+3", 1e3},
+      {"-2.5e2", -250}, {"0.1000000000000000055511151231257827021181583404541015625", 0.1},
+      {"1.7976931348623157e308", std::numeric_limits<double>::max()},
+      {"4.9406564584124654e-324", std::numeric_limits<double>::denorm_min()},
+      {"9007199254740993", 9007199254740992.0}, {"0.30000000000000004", 0.1 + 0.2}, {"0e5", 0.0},
+      {"123456789012345678901234567890", 123456789012345678901234567890.0}};
+  for (const auto& [text, value] : numbers) {
+    CAPTURE(text);
+    CHECK(parse("a: " + text).root().require("a", "file").number("a") == value);
+    CHECK(parse("{\"a\":" + text + "}").root().require("a", "file").number("a") == value);
+  }
+}
+
+TEST_CASE("what is no plain decimal number is refused with the value and what is expected", "[document]") {
+  const std::string form = " is not a finite decimal number; expected a number such as 0.25 or 1e-3";
+  const std::string zero = " has a leading zero; expected a decimal number without";
+  const std::string range = " is too large or too small for a double; expected a number such as 0.25 or 1e-3";
+  const std::vector<Refusal> refusals{
+      {".nan", ".nan" + form}, {".inf", ".inf" + form}, {"-.inf", "-.inf" + form}, {"nan", "nan" + form},
+      {"inf", "inf" + form}, {"infinity", "infinity" + form}, {"0x10", "0x10" + form}, {"0o10", "0o10" + form},
+      {"1_000", "1_000" + form}, {"0,5", "0,5" + form}, {"1.2.3", "1.2.3" + form}, {"1e", "1e" + form},
+      {"--1", "--1" + form}, {"+-1", "+-1" + form}, {".", "." + form}, {"1 2", "1 2" + form},
+      {"12:30", "12:30" + form}, {"abc", "abc" + form}, {"1e5f", "1e5f" + form}, {"010", "010" + zero},
+      {"-007.5", "-007.5" + zero}, {"1e999", "1e999" + range}, {"-1e999", "-1e999" + range},
+      {"1e-999", "1e-999" + range},
+      {"'1'", "\"1\" is a text; expected a number"}, {"\"\"", "\"\" is a text; expected a number"},
+      {"[1]", "a list of 1 item is given; expected a number"}, {"{b: 1}", "a map is given; expected a number"},
+      {"~", "nothing is given; expected a number"}, {"null", "nothing is given; expected a number"},
+      {"", "nothing is given; expected a number"},
+      {"aaaaaaaaaabbbbbbbbbbccccccccccddddddddddeeeee", "aaaaaaaaaabbbbbbbbbbccccccccccdddddddddd..." + form}};
+  for (const auto& [text, message] : refusals) {
+    CAPTURE(text);
+    const std::string place = text.empty() ? "f.yaml:1:1: " : "f.yaml:1:4: ";
+    CHECK(error_of([&] { parse("a: " + text + "\n").root().require("a", "file").number("mu"); }) ==
+          place + "mu: " + message);
+  }
+}
+
+TEST_CASE("bounds, integers, booleans and texts say what they expect", "[document]") {
+  const Document document =
+      parse("{neg: -0.3, zero: 0, minus: -0.0, big: 9223372036854775808, least: -9223372036854775808, half: 0.5, "
+            "octal: 010, yes: yes, True: True, t: true, f: false, quoted: \"true\", e: 1e3, name: caf\u00e9, n: 12}");
+  const Node& root = document.root();
+  const auto at = [&](const char* key) -> const Node& { return root.require(key, "file"); };
+  CHECK(error_of([&] { at("neg").not_negative("friction"); }) ==
+        "f.yaml:1:7: friction: -0.3 is negative; expected a number >= 0");
+  CHECK(error_of([&] { at("zero").positive("robot.mass"); }) ==
+        "f.yaml:1:19: robot.mass: 0 is not positive; expected a number > 0");
+  CHECK_FALSE(std::signbit(at("minus").not_negative("x")));
+  CHECK(at("least").integer("x") == std::numeric_limits<std::int64_t>::min());
+  CHECK(error_of([&] { at("big").integer("seed"); }) ==
+        "f.yaml:1:40: seed: 9223372036854775808 is out of range; expected an integer of at most 63 bits");
+  const auto tail = [](const std::string& message) { return message.substr(message.find("x: ")); };
+  CHECK(tail(error_of([&] { at("half").integer("x"); })) == "x: 0.5 is not an integer; expected an integer");
+  CHECK(tail(error_of([&] { at("e").integer("x"); })) == "x: 1e3 is not an integer; expected an integer");
+  CHECK(tail(error_of([&] { at("octal").integer("x"); })) == "x: 010 has a leading zero; expected an integer without");
+  CHECK(at("t").boolean("x"));
+  CHECK_FALSE(at("f").boolean("x"));
+  CHECK(tail(error_of([&] { at("yes").boolean("x"); })) == "x: yes is given; expected true or false");
+  CHECK(tail(error_of([&] { at("True").boolean("x"); })) == "x: True is given; expected true or false");
+  CHECK(tail(error_of([&] { at("quoted").boolean("x"); })) == "x: \"true\" is a text; expected true or false");
+  CHECK(at("name").text("x") == "caf\u00e9");
+  CHECK(at("n").text("x") == "12");
+  CHECK(at("n").where() == "f.yaml:1:193");  // columns count characters, not bytes
+  CHECK(tail(error_of([&] { root.text("x"); })) == "x: a map is given; expected a text");
+  CHECK(tail(error_of([&] { at("n").items("x"); })) == "x: 12 is given; expected a list");
+  CHECK(tail(error_of([&] { parse("[1, 2]").root().items("x", 3); })) ==
+        "x: a list of 2 items is given; expected a list of 3 items");
+  CHECK(tail(error_of([&] { at("n").entries("x"); })) == "x: 12 is given; expected a map (key: value)");
+  CHECK(tail(error_of([&] { root.require("absent", "x"); })) == "x: \"absent\" is missing");
+  CHECK(root.find("absent") == nullptr);
+  CHECK(at("n").find("absent") == nullptr);
+}
+
+TEST_CASE("JSON reads as the same tree", "[document]") {
+  const Document document = parse(
+      "{\n\t\"a\": \"caf\\u00e9 \\\"x\\\" \\/ \\\\\", \"b\":[1.25,-3e-2,null,true,\"inf\"],\"c\":{\"1\":{}, \"2\": []},"
+      "\"long\":\"" + std::string(3000, 'x') + "\", \"d\": \"\"}\n");
+  const Node& root = document.root();
+  CHECK(root.require("a", "x").text("a") == "caf\u00e9 \"x\" / \\");
+  const auto& b = root.require("b", "x").items("b", 5);
+  CHECK(b[0].number("b") == 1.25);
+  CHECK(b[1].number("b") == -3e-2);
+  CHECK(b[2].is_null());
+  CHECK(b[3].boolean("b"));
+  CHECK(b[4].text("b") == "inf");
+  const auto& c = root.require("c", "x").entries("c");
+  REQUIRE(c.size() == 2);
+  CHECK(c[0].first.text("key") == "1");
+  CHECK(c[0].second.entries("c.1").empty());
+  CHECK(c[1].second.items("c.2").empty());
+  CHECK(root.require("long", "x").text("long").size() == 3000);
+  CHECK(root.require("d", "x").text("d").empty());
+}
+
+TEST_CASE("nodes stay valid when their document is moved", "[document]") {
+  Document first = parse("{a: short, b: \"with\\tescape\"}");
+  const Node& b = *first.root().find("b");
+  const Document second = std::move(first);
+  CHECK(b.text("b") == "with\tescape");
+  CHECK(b.where() == "f.yaml:1:15");
+  CHECK(second.root().require("a", "x").text("a") == "short");
+}
+
+TEST_CASE("unknown keys are refused with the nearest known one", "[document]") {
+  const auto refuse = [](const std::string& text) {
+    return error_of([&] { parse(text).root().allow_only({"friction", "chains"}, "terrain"); });
+  };
+  CHECK(refuse("{friction: 1, chains: 2}") == "no error");
+  CHECK(refuse("{}") == "no error");
+  CHECK(refuse("friction: 1\nfricton: 2\n") ==
+        "f.yaml:2:1: terrain: unknown key \"fricton\"; did you mean \"friction\"?");
+  CHECK(refuse("{speed: 1}") == "f.yaml:1:2: terrain: unknown key \"speed\"; expected one of: friction, chains");
+  CHECK(refuse("{friction:1}") == "f.yaml:1:2: terrain: unknown key \"friction:1\"; a space must follow the colon");
+  CHECK(refuse("[1]") == "f.yaml:1:1: terrain: a list of 1 item is given; expected a map (key: value)");
+}
+
+TEST_CASE("near misses are near", "[document]") {
+  const std::vector<std::string> keys{"friction", "chains", "radius_of_gyration", "x", "nu"};
+  CHECK(near_miss("fricton", keys) == "friction");
+  CHECK(near_miss("FRICTION", keys) == "friction");
+  CHECK(near_miss("firction", keys) == "friction");
+  CHECK(near_miss("chain", keys) == "chains");
+  CHECK(near_miss("radius-of-gyraton", keys) == "radius_of_gyration");
+  CHECK(near_miss("radius", keys).empty());
+  CHECK(near_miss("y", keys).empty());
+  CHECK(near_miss("un", keys) == "nu");
+  CHECK(near_miss("", keys).empty());
+  CHECK(near_miss("friction", {}).empty());
+  CHECK(near_miss(std::string(100000, 'a'), keys).empty());
+}
+
+}  // namespace
+}  // namespace surefoot::terrain

@@ -130,6 +130,37 @@ TEST_CASE("a stance is rejected where the centre of pressure can leave its feet"
   }
 }
 
+// Feet on slopes -0.3, 0.1 and 1.2; rho = 0.05 m. At lambda = 0.65 the COM is (0.092, 0.44), the feet have
+// r x n = -0.425, -0.086, -0.08 for n = (-slope, 1), and with p = 0, q = 0.04 the body falls free of all of them (FFF):
+// n . a + (r x n) alpha = -1 - (r x n) q / rho^2 = 5.8, 0.38, 0.28 > 0.
+TEST_CASE("a transfer is rejected that is stable at its ends and not between them", "[verifier]") {
+  Scene scene =
+      scene_on({chain({{-0.6, 0.095}, {-0.3, 0.005}, {-0.05, -0.01}, {0.15, 0.01}, {0.25, 0.14}, {0.35, 0.26}}, 1)});
+  scene.robot.radius_of_gyration = 0.05;
+  scene.robot.reach_min = 0.1;
+  scene.disturbance = {0.05, 0.04};
+  scene.goal = {std::pair(0.19, 0.19), {}};
+  const auto foot = [&](double x) { return scene.terrain.footholds_at_x(x).at(0); };
+  scene.start.feet = {foot(-0.45), foot(0.05), std::nullopt};
+  Plan plan;
+  plan.status = Status::solved;
+  plan.stances = {Stance{scene.start.feet, {-0.09, 0.7}, 0, ""},
+                  Stance{Feet{std::nullopt, foot(0.05), foot(0.3)}, {0.19, 0.3}, 0, ""}};
+  plan.transfers = {Transfer{2, foot(0.3), 0, 0, ""}};
+  rate(scene, plan);
+  require_only(verify(scene, plan), Rule::transfer_stability, "transfer 1 (leg 3)", "not stable at lambda = 0.");
+  CHECK(broken_transfer_rule(scene, plan.stances[0], plan.transfers[0], plan.stances[1].com, std::nullopt) ==
+        Rule::transfer_stability);
+  CHECK(plan.transfers[0].safety_factor < 1);
+  CHECK(plan.stances[0].safety_factor > 1);
+  CHECK(plan.stances[1].safety_factor > 1);
+
+  // A robot that braces need not mind.
+  scene.criterion = Criterion::equilibrium;
+  rate(scene, plan);
+  require_holds(verify(scene, plan));
+}
+
 TEST_CASE("which legs are placed and lifted is checked", "[verifier]") {
   const Scene scene = scene_on(level_ground_and());
   Plan plan = plan_by_hand(scene);

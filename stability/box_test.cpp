@@ -1,0 +1,91 @@
+#include "stability/box_test.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace surefoot::stability {
+namespace {
+
+using Corners = std::array<double, 4>;
+
+Corners corner_values(const Row<double>& row, const DisturbanceBox& box) {
+  const double p = row.p * box.kappa, q = row.q * box.nu;
+  return {row.one - p - q, row.one + p - q, row.one + p + q, row.one - p + q};
+}
+
+/// Whether the combination is negative at every corner by more than its error.
+bool holds(const Certificate& c, const std::array<Corners, max_rows>& at, const RowList<double>& rows) {
+  double error = 0;
+  for (int k = 0; k < c.count; ++k) error += c.y[k] * rows.error[c.row[k]];
+  for (int corner = 0; corner < 4; ++corner) {
+    double sum = 0;
+    for (int k = 0; k < c.count; ++k) sum += c.y[k] * at[c.row[k]][corner];
+    if (!(sum < -error)) return false;
+  }
+  return true;
+}
+
+/// theta g_i + (1 - theta) g_j < 0 at four corners: an interval of theta, whose middle is taken.
+std::optional<Certificate> pair_certificate(int i, int j, const std::array<Corners, max_rows>& at) {
+  double low = 0, high = 1;
+  for (int corner = 0; corner < 4; ++corner) {
+    const double a = at[i][corner], b = at[j][corner];
+    if (a >= 0 && b >= 0) return std::nullopt;
+    if (a < 0 && b < 0) continue;
+    const double limit = b / (b - a);
+    if (a < 0)
+      low = std::max(low, limit);
+    else
+      high = std::min(high, limit);
+  }
+  if (!(low < high)) return std::nullopt;
+  const double theta = 0.5 * (low + high);
+  return Certificate{2, {i, j, 0}, {theta, 1 - theta, 0}};
+}
+
+std::optional<Certificate> triple_certificate(int i, int j, int k, const RowList<double>& rows) {
+  const auto gradient = [&](int r) { return Vec2<double>{rows.row[r].p, rows.row[r].q}; };
+  std::array<double, 3> y{cross(gradient(j), gradient(k)), cross(gradient(k), gradient(i)),
+                          cross(gradient(i), gradient(j))};
+  if (y[0] < 0 && y[1] < 0 && y[2] < 0)
+    for (double& value : y) value = -value;
+  if (!(y[0] > 0 && y[1] > 0 && y[2] > 0)) return std::nullopt;
+  const double scale = 1 / (y[0] + y[1] + y[2]);
+  if (!std::isfinite(scale)) return std::nullopt;
+  return Certificate{3, {i, j, k}, {y[0] * scale, y[1] * scale, y[2] * scale}};
+}
+
+}  // namespace
+
+bool any_certificate(const RowList<double>& rows, const DisturbanceBox& box,
+                     const std::function<bool(const Certificate&)>& accept) {
+  std::array<Corners, max_rows> at;
+  for (int k = 0; k < rows.count; ++k) at[k] = corner_values(rows.row[k], box);
+  const auto good = [&](const std::optional<Certificate>& c) { return c && holds(*c, at, rows) && accept(*c); };
+  for (int k = 0; k < rows.count; ++k)
+    if (good(Certificate{1, {k, 0, 0}, {1, 0, 0}})) return true;
+  for (int i = 0; i < rows.count; ++i)
+    for (int j = i + 1; j < rows.count; ++j)
+      if (good(pair_certificate(i, j, at))) return true;
+  for (int i = 0; i < rows.count; ++i)
+    for (int j = i + 1; j < rows.count; ++j)
+      for (int k = j + 1; k < rows.count; ++k)
+        if (good(triple_certificate(i, j, k, rows))) return true;
+  return false;
+}
+
+std::optional<Vec2<double>> find_witness(const RowList<double>& rows, const DisturbanceBox& box) {
+  const auto positive = [&](const Vec2<double>& v) {
+    for (int k = 0; k < rows.count; ++k)
+      if (!(value_at(rows.row[k], v.x, v.y) > rows.error[k])) return false;
+    return true;
+  };
+  const Vec2<double> gravity{0, 0};
+  if (positive(gravity)) return gravity;
+  const auto candidate = middle(rows, box.kappa, box.nu);
+  if (candidate && positive(*candidate)) return candidate;
+  return std::nullopt;
+}
+
+}  // namespace surefoot::stability

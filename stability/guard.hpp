@@ -1,0 +1,48 @@
+// Bounds on the rounding error of the rows of rows.hpp in double precision.
+//
+// Let u = 2^-53. Normals are scaled by powers of two so that |n_x|, |n_y| < 1; a = 1 + max mu bounds the components of
+// cone edges; R bounds |r_x| + |r_y| over contacts (and over the line, where there is one); rho2 = rho^2. Errors, relative
+// to the magnitude given, follow by counting operations ("k u" below; second-order terms are absorbed by rounding up):
+//   r = fl(x_i - x)                        1 u of R
+//   nz = r x n                             3 u of R            sz = r x C       5 u of a R      (C itself: 2 u of a)
+//   normal_cross p, one                    5 u of 2 R          q slot           2 u of 2
+//   slide_row p, one                      12 u of 2 a (rho2 + R^2)             q slot   9 u of 2 a R
+//   roll_force_row p, one                  9 u of a (rho2 + R^2)               q slot   6 u of a R
+//   force_cross p, one                    13 u of 2 a (rho2 + R^2)             q slot   9 u of 4 a R
+//   z of two slides p, one                 9 u of 2 a^2 R      q slot           6 u of 2 a^2
+//   slide_denominator                     10 u of 2 a (rho2 + R^2)
+//   two-slide denominator                 17 u of 8 a^2 (rho2 + R^2)
+// A row's value at (p, q) with |p| <= P, |q| <= Q adds 3 u of its magnitude. Hence every row value of the first class has an
+// error of at most 64 u a ((rho2 + R^2)(1 + P) + R Q), of the length class 64 u a^2 (R (1 + P) + Q), and every
+// denominator of at most 136 u a^2 (rho2 + R^2). Along a line the polynomial's coefficients and its evaluation multiply the
+// number of operations by at most 3 (r has two coefficients, each product of two of them three), which the factor below
+// contains: 136 * 3 < 512. Underflow adds an absolute error below `underflow_slack`; overflow gives inf or NaN, for
+// which every comparison below is false: not certain. What is not certain is decided in rationals.
+#pragma once
+
+#include "stability/contact.hpp"
+#include "stability/rows.hpp"
+
+namespace surefoot::stability {
+
+constexpr double unit_roundoff = 0x1p-53;
+constexpr double row_error_factor = 512 * unit_roundoff;
+constexpr double underflow_slack = 1e-290;
+
+/// Error bounds for one COM, or for all COMs of a line.
+struct Guard {
+  double area = 0;         // rows added by Sink::add [m^2]
+  double length = 0;       // rows added by Sink::add_length [m]
+  double denominator = 0;  // D
+
+  Guard() = default;
+  Guard(double a, double rho2, double radius, const DisturbanceBox& box) {
+    const double area_scale = rho2 + radius * radius;
+    const double factor = row_error_factor * a * a;
+    denominator = factor * area_scale + underflow_slack;
+    area = factor * (area_scale * (1 + box.kappa) + radius * box.nu) + underflow_slack;
+    length = factor * (radius * (1 + box.kappa) + box.nu) + underflow_slack;
+  }
+};
+
+}  // namespace surefoot::stability

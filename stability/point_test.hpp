@@ -1,0 +1,84 @@
+// Is a non-static mode feasible at one COM for some wrench of W? Doubles with certificates first, rationals where
+// these cannot tell.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "stability/box_test.hpp"
+#include "stability/guard.hpp"
+#include "stability/posture.hpp"
+
+namespace surefoot::stability {
+
+/// A COM with the frame in doubles; the exact frame is made when first needed.
+class PointQuery {
+ public:
+  PointQuery(const Posture& posture, const Eigen::Vector2d& com, const DisturbanceBox& box);
+
+  /// z . g > 0 at every corner of W for every facet (theory section 3).
+  bool equilibrium();
+  bool feasible(const ModeSpec& spec);
+  const Frame<double>& frame() const { return frame_; }
+  const Guard& guard() const { return guard_; }
+
+ private:
+  bool feasible_exactly(const ModeSpec& spec);
+  bool inside_exactly(const Facet& facet) const;
+  const Frame<Rational>& exact_frame();
+
+  const Posture& posture_;
+  Eigen::Vector2d com_;
+  DisturbanceBox box_;
+  Frame<double> frame_;
+  Guard guard_;
+  std::optional<Frame<Rational>> exact_;
+};
+
+/// Collects a mode's rows in doubles with their error bounds, the sign of D applied. Stops early when a row alone excludes
+/// the mode for the whole box.
+class PointSink {
+ public:
+  PointSink(const Guard& guard, const DisturbanceBox& box) : guard_(guard), box_(box) {}
+  void denominator(double d) {
+    sign_certain_ = d > guard_.denominator || d < -guard_.denominator;
+    negative_ = d < 0;
+  }
+  bool add(const Row<double>& row) { return push(row, guard_.area); }
+  bool add_length(const Row<double>& row) { return push(row, guard_.length); }
+
+  RowList<double> rows;
+  bool excluded() const { return excluded_; }
+  bool sign_certain() const { return sign_certain_; }
+
+ private:
+  bool push(Row<double> row, double error) {
+    if (negative_) row = -row;
+    const double greatest = row.one + box_.kappa * std::abs(row.p) + box_.nu * std::abs(row.q);
+    excluded_ = sign_certain_ && greatest < -error;
+    rows.error[rows.count] = error;
+    rows.row[rows.count++] = row;
+    return excluded_ || !sign_certain_;
+  }
+  const Guard& guard_;
+  const DisturbanceBox& box_;
+  bool excluded_ = false, sign_certain_ = true, negative_ = false;
+};
+
+/// Collects rows as they are, with D beside them, for number types other than double.
+template <class V>
+struct RowSink {
+  RowList<V> rows;
+  std::optional<V> d;
+  void denominator(const V& value) { d = value; }
+  bool add(const Row<V>& row) {
+    rows.row[rows.count++] = row;
+    return false;
+  }
+  bool add_length(const Row<V>& row) { return add(row); }
+};
+
+/// The rows of a mode in exact arithmetic meet the box: with the sign of D, both signs where D = 0.
+bool meets_box_exactly(const RowSink<Rational>& sink, const DisturbanceBox& box);
+
+}  // namespace surefoot::stability

@@ -1,0 +1,357 @@
+#include "stability/posture.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include "stability/guard.hpp"
+
+namespace surefoot::stability {
+namespace {
+
+int sign_of(const Rational& value) { return value.sign(); }
+
+/// The sign of `value` if its error is below `bound`, else that of `exact()`.
+template <class Exact>
+int certain_sign(double value, double bound, Exact&& exact) {
+  if (value > bound) return 1;
+  if (value < -bound) return -1;
+  if (bound == 0 && value == 0) return 0;
+  return sign_of(exact());
+}
+
+Vec2<Rational> rational(const Vec2<double>& v) { return {Rational(v.x), Rational(v.y)}; }
+Vec2<Rational> rational(const Eigen::Vector2d& v) { return {Rational(v.x()), Rational(v.y())}; }
+
+bool same(const Vec2<double>& a, const Vec2<double>& b) { return a.x == b.x && a.y == b.y; }
+
+/// Scaling by a power of two is exact but for components that become subnormal, which underflow_slack covers.
+Vec2<double> scaled_normal(const Eigen::Vector2d& n) {
+  int ex = 0, ey = 0;
+  std::frexp(n.x(), &ex);
+  std::frexp(n.y(), &ey);
+  const int e = n.x() == 0 ? ey : n.y() == 0 ? ex : std::max(ex, ey);
+  return {std::ldexp(n.x(), -e), std::ldexp(n.y(), -e)};
+}
+
+/// (x_l - x_i) x n_l: the rate at which contact l opens when the body turns about contact i. Independent of the COM.
+/// `nl` is scaled for the first look, `given` is the normal itself.
+int opening_sign(const Eigen::Vector2d& xi, const Eigen::Vector2d& xl, const Vec2<double>& nl,
+                 const Vec2<double>& given) {
+  const double dx = xl.x() - xi.x(), dy = xl.y() - xi.y();
+  const double left = dx * nl.y, right = dy * nl.x;
+  // dx, dy: 1 u each, two products and a difference: 3 u of the magnitude.
+  const double bound = 4 * unit_roundoff * (std::abs(left) + std::abs(right));
+  const bool underflow = bound < underflow_slack && ((dx != 0 && nl.y != 0) || (dy != 0 && nl.x != 0));
+  return certain_sign(left - right, underflow ? HUGE_VAL : bound, [&] {
+    const Vec2<Rational> d = rational(xl) - rational(xi);
+    return cross(d, rational(given));
+  });
+}
+
+/// N_l . (N_i x N_j): the rate at which contact l opens when i and j slide. Independent of the COM (evaluated about x_i).
+template <class K>
+K opening_of_slide(const Vec2<K>& dj, const Vec2<K>& dl, const Vec2<K>& ni, const Vec2<K>& nj, const Vec2<K>& nl) {
+  return cross(dj, nj) * cross(nl, ni) + cross(dl, nl) * cross(ni, nj);
+}
+
+}  // namespace
+
+Posture::Posture(std::span<const Contact> contacts, double radius_of_gyration)
+    : count_(static_cast<int>(contacts.size())), rho_(radius_of_gyration), rho2_(rho_ * rho_) {
+  assert(count_ >= 1 && count_ <= 3 && "1 to 3 contacts");
+  assert(std::isfinite(rho_) && rho_ > 0 && "radius of gyration must be positive");
+  for (int i = 0; i < count_; ++i) {
+    const Contact& c = contacts[i];
+    assert(c.position.allFinite() && c.normal.allFinite() && std::isfinite(c.friction) && c.friction >= 0);
+    assert((c.normal.x() != 0 || c.normal.y() != 0) && "the normal must not be zero");
+    position_[i] = c.position;
+    given_normal_[i] = {c.normal.x(), c.normal.y()};
+    normal_[i] = scaled_normal(c.normal);
+    friction_[i] = c.friction;
+    edge_bound_ = std::max(edge_bound_, 1 + c.friction);
+    spread_ = std::max(spread_, (c.position - position_[0]).lpNorm<1>());
+  }
+  // Row a x row b: at most 9 u of 2 a^2 (times the spread in the slots that are lengths), as z in guard.hpp.
+  facet_error_ = 32 * unit_roundoff * edge_bound_ * edge_bound_;
+  find_facets();
+  list_modes();
+}
+
+// ---- frames -----------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Fills everything that follows from n, mu and r.
+template <class V>
+void complete(ContactTerms<V>& t) {
+  const auto& n = t.n;
+  t.edge[edge_u] = {n.x + t.mu * n.y, n.y - t.mu * n.x};
+  t.edge[edge_w] = {n.x - t.mu * n.y, n.y + t.mu * n.x};
+  t.nz = t.r.x * n.y - t.r.y * n.x;
+  for (int e : {edge_u, edge_w}) t.sz[e] = t.r.x * t.edge[e].y - t.r.y * t.edge[e].x;
+}
+
+/// MakeR(i) gives r_i.
+template <class V, class MakeR>
+Frame<V> make_frame(int count, const std::array<Vec2<double>, 3>& normal, const std::array<double, 3>& friction,
+                    Constant<V> rho2, MakeR&& make_r) {
+  using K = Constant<V>;
+  Frame<V> frame;
+  frame.rho2 = rho2;
+  frame.contacts = count;
+  for (int i = 0; i < count; ++i) {
+    ContactTerms<V>& t = frame.at[i];
+    t.n = {K(normal[i].x), K(normal[i].y)};
+    t.mu = K(friction[i]);
+    t.r = make_r(i);
+    complete(t);
+  }
+  return frame;
+}
+
+Rational squared(double value) { return Rational(value) * Rational(value); }
+
+}  // namespace
+
+Frame<double> Posture::frame(const Eigen::Vector2d& com) const {
+  return make_frame<double>(count_, normal_, friction_, rho2_, [&](int i) {
+    return Vec2<double>{position_[i].x() - com.x(), position_[i].y() - com.y()};
+  });
+}
+
+Frame<Dual> Posture::dual_frame(const Eigen::Vector2d& com) const {
+  return make_frame<Dual>(count_, normal_, friction_, rho2_, [&](int i) {
+    return Vec2<Dual>{{position_[i].x() - com.x(), -1, 0}, {position_[i].y() - com.y(), 0, -1}};
+  });
+}
+
+Frame<Rational> Posture::exact_frame(const Eigen::Vector2d& com) const {
+  return make_frame<Rational>(count_, given_normal_, friction_, squared(rho_), [&](int i) {
+    return rational(position_[i]) - rational(com);
+  });
+}
+
+Frame<double> Posture::frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const {
+  const Eigen::Vector2d back = lambda * (from - to);
+  return make_frame<double>(count_, normal_, friction_, rho2_, [&](int i) {
+    return Vec2<double>{position_[i].x() - from.x() + back.x(), position_[i].y() - from.y() + back.y()};
+  });
+}
+
+Frame<Rational> Posture::exact_frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const {
+  const Rational part(lambda);
+  const Vec2<Rational> start = rational(from), back = start - rational(to);
+  return make_frame<Rational>(count_, given_normal_, friction_, squared(rho_), [&](int i) {
+    const Vec2<Rational> r = rational(position_[i]) - start;
+    return Vec2<Rational>{r.x + part * back.x, r.y + part * back.y};
+  });
+}
+
+// ---- equilibrium cone -------------------------------------------------------------------------------------------
+
+namespace {
+
+template <class K>
+Row<K> ray_about(const Vec2<K>& d, const Vec2<K>& n, const K& mu, int edge) {
+  const Vec2<K> c = edge == edge_u ? Vec2<K>{n.x + mu * n.y, n.y - mu * n.x} : Vec2<K>{n.x - mu * n.y, n.y + mu * n.x};
+  return {c.x, c.y, cross(d, c)};
+}
+
+}  // namespace
+
+Row<Rational> Posture::exact_facet(const Facet& facet) const {
+  const auto ray = [&](int k) {
+    const int i = k / 2;
+    return ray_about<Rational>(rational(position_[i]) - rational(position_[0]), rational(given_normal_[i]),
+                               Rational(friction_[i]), k % 2);
+  };
+  const Row<Rational> z = cross(ray(facet.a), ray(facet.b));
+  return facet.sign > 0 ? z : -z;
+}
+
+int Posture::side(int a, int b, int c) const {
+  const auto same_direction = [&](int k, int l) {
+    return k % 2 == l % 2 && friction_[k / 2] == friction_[l / 2] && same(normal_[k / 2], normal_[l / 2]);
+  };
+  // One ray given twice: frictionless contacts.
+  const auto frictionless_pair = [&](int k, int l) { return k / 2 == l / 2 && friction_[k / 2] == 0; };
+  if (frictionless_pair(a, b) || frictionless_pair(a, c) || frictionless_pair(b, c)) return 0;
+  // Parallel forces span a plane whatever their lines of action: flat ground, parallel treads.
+  if (same_direction(a, b) && same_direction(b, c)) return 0;
+  const Row<double> z = cross(rays_[a], rays_[b]);
+  const double value = dot(z, rays_[c]);
+  // z: 9 u of 2 a^2 (spread); the product with the third ray: at most 3 terms, 8 u more, of 6 a^3 spread.
+  const double bound = 128 * unit_roundoff * edge_bound_ * edge_bound_ * edge_bound_ * spread_ + underflow_slack;
+  return certain_sign(value, bound, [&] {
+    const Row<Rational> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
+    const int i = c / 2;
+    return dot(exact, ray_about<Rational>(rational(position_[i]) - rational(position_[0]), rational(given_normal_[i]),
+                                          Rational(friction_[i]), c % 2));
+  });
+}
+
+bool Posture::parallel(int a, int b) const {
+  const Row<double> z = cross(rays_[a], rays_[b]);
+  if (std::abs(z.q) > facet_error_ || std::abs(z.p) > facet_error_ * spread_ + underflow_slack ||
+      std::abs(z.one) > facet_error_ * spread_ + underflow_slack)
+    return false;
+  const Row<Rational> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
+  return exact.p.is_zero() && exact.one.is_zero() && exact.q.is_zero();
+}
+
+/// Rays a < b span a plane that an earlier pair has spanned already if a third ray lies in it and pairs with one of them
+/// earlier in the order.
+bool Posture::is_new_plane(int a, int b, const std::array<int, 6>& sides) const {
+  for (int c = 0; c < b; ++c) {
+    if (c == a || sides[c] != 0) continue;
+    if (!parallel(std::min(a, c), std::max(a, c))) return false;
+    if (c < a && !parallel(c, b)) return false;
+  }
+  return true;
+}
+
+void Posture::add_facet_if_supporting(int a, int b) {
+  std::array<int, 6> sides{};
+  bool positive = false, negative = false;
+  for (int c = 0; c < 2 * count_; ++c) {
+    if (c == a || c == b) continue;
+    sides[c] = side(a, b, c);
+    positive |= sides[c] > 0;
+    negative |= sides[c] < 0;
+    if (positive && negative) {
+      flat_cone_ = false;
+      return;
+    }
+  }
+  if (positive || negative) flat_cone_ = false;
+  if (parallel(a, b) || !is_new_plane(a, b, sides)) return;
+  const Row<double> z = cross(rays_[a], rays_[b]);
+  const auto ra = static_cast<signed char>(a), rb = static_cast<signed char>(b);
+  if (!negative) facets_[facet_count_++] = {z, ra, rb, 1};
+  if (!positive) facets_[facet_count_++] = {-z, ra, rb, -1};
+}
+
+void Posture::find_facets() {
+  for (int i = 0; i < count_; ++i) {
+    const Vec2<double> d{position_[i].x() - position_[0].x(), position_[i].y() - position_[0].y()};
+    for (int e : {edge_u, edge_w}) rays_[2 * i + e] = ray_about<double>(d, normal_[i], friction_[i], e);
+  }
+  for (int b = 1; b < 2 * count_; ++b)
+    for (int a = 0; a < b; ++a) add_facet_if_supporting(a, b);
+}
+
+// ---- modes ------------------------------------------------------------------------------------------------------
+
+ModeSpec& Posture::add_mode(ModeSpec::Kind kind) {
+  ModeSpec& spec = modes_[mode_count_++];
+  spec = ModeSpec{};
+  spec.kind = kind;
+  spec.mode.contacts = count_;
+  return spec;
+}
+
+void Posture::list_modes() {
+  for (int i = 0; i < count_; ++i)
+    for (int l = 0; l < count_; ++l)
+      if (l != i)
+        turn_sign_[i][l] =
+            static_cast<signed char>(opening_sign(position_[i], position_[l], normal_[l], given_normal_[l]));
+  add_mode(ModeSpec::Kind::all_break);
+  for (int i = 0; i < count_; ++i) add_roll(i);
+  for (int i = 0; i < count_; ++i) list_slides(i);
+  for (int i = 0; i < count_; ++i)
+    for (int j = i + 1; j < count_; ++j) list_two_slides(i, j);
+}
+
+/// Contacts that turning about i would open in opposite senses exclude the roll for every COM.
+void Posture::add_roll(int i) {
+  int sense = 0;
+  for (int l = 0; l < count_; ++l) {
+    if (l == i) continue;
+    const int opening = turn_sign_[i][l];
+    if (opening * sense < 0) return;
+    if (opening != 0) sense = opening;
+  }
+  ModeSpec& spec = add_mode(ModeSpec::Kind::roll);
+  spec.i = static_cast<signed char>(i);
+  spec.sense = static_cast<signed char>(sense);
+  spec.mode.at[i] = ContactState::rolls;
+}
+
+/// Sliding at i leaves two freedoms: the speed v along t_i and a rotation alpha about x_i, in which contact l opens at the rate
+/// v (n_l x n_i) + alpha (x_l - x_i) x n_l. Whether some (v, alpha) with sigma v > 0 opens every other contact does not
+/// depend on the COM. With two others that the rotation opens in opposite senses, elimination of alpha leaves the sign of
+/// N_l . (N_i x N_j). (Left to the rows, an impossible mode would have linearly dependent rows, a tangential case.)
+bool Posture::can_slide(int i, int sigma, std::array<bool, 3>& row_vanishes) const {
+  int positive = -1, negative = -1;
+  for (int l = 0; l < count_; ++l) {
+    if (l == i) continue;
+    const int turn = turn_sign_[i][l];
+    if (turn > 0) positive = l;
+    if (turn < 0) negative = l;
+    if (turn != 0) continue;
+    const int along = sigma * cross(rational(given_normal_[l]), rational(given_normal_[i])).sign();
+    if (along < 0) return false;
+    row_vanishes[l] = along == 0;  // both normals on one line
+  }
+  return positive < 0 || negative < 0 || sigma * opening_of_third(i, positive, negative) > 0;
+}
+
+void Posture::list_slides(int i) {
+  for (int sigma : {1, -1}) {
+    std::array<bool, 3> vanishes{};
+    if (!can_slide(i, sigma, vanishes)) continue;
+    ModeSpec& spec = add_mode(ModeSpec::Kind::slide);
+    spec.i = static_cast<signed char>(i);
+    spec.sigma_i = static_cast<signed char>(sigma);
+    spec.row_vanishes = vanishes;
+    spec.mode.at[i] = sigma > 0 ? ContactState::slides_along : ContactState::slides_against;
+  }
+}
+
+/// The sign of N_l . (N_i x N_j).
+int Posture::opening_of_third(int i, int j, int l) const {
+  if (same(given_normal_[i], given_normal_[j]) && same(given_normal_[j], given_normal_[l])) return 0;
+  const auto offset = [&](int k) {
+    return Vec2<double>{position_[k].x() - position_[i].x(), position_[k].y() - position_[i].y()};
+  };
+  const double value = opening_of_slide(offset(j), offset(l), normal_[i], normal_[j], normal_[l]);
+  // Two products of cross products (3 u of the spread from contact i, at most 2 spread, and 2 u of 2): 8 u of 8 spread.
+  const double bound = 128 * unit_roundoff * spread_ + underflow_slack;
+  return certain_sign(value, bound, [&] {
+    const auto exact_offset = [&](int k) { return rational(position_[k]) - rational(position_[i]); };
+    return opening_of_slide(exact_offset(j), exact_offset(l), rational(given_normal_[i]), rational(given_normal_[j]),
+                            rational(given_normal_[l]));
+  });
+}
+
+/// Along c = N_i x N_j contact i slides as T_i . c = |n_i|^2 (x_j - x_i) x n_j says, contact j as T_j . c = -|n_j|^2 (x_i - x_j) x n_i,
+/// and the third opens as N_l . c. The mode needs all of them (where they are not zero) to agree with one sign of xi along c.
+void Posture::list_two_slides(int i, int j) {
+  const int slide_i = turn_sign_[i][j];
+  const int slide_j = -turn_sign_[j][i];
+  const bool same_line = slide_i == 0 && slide_j == 0 && cross(rational(given_normal_[i]), rational(given_normal_[j])) == 0;
+  if (same_line) return;  // c = 0
+  const int third = count_ == 3 ? opening_of_third(i, j, 3 - i - j) : 0;
+  for (int sigma_i : {1, -1})
+    for (int sigma_j : {1, -1}) {
+      const int needs[3] = {sigma_i * slide_i, sigma_j * slide_j, third};
+      int sense = 0;
+      bool possible = true;
+      for (int need : needs) {
+        possible &= need * sense >= 0;
+        if (need != 0) sense = need;
+      }
+      if (!possible) continue;
+      ModeSpec& spec = add_mode(ModeSpec::Kind::two_slides);
+      spec.i = static_cast<signed char>(i);
+      spec.j = static_cast<signed char>(j);
+      spec.sigma_i = static_cast<signed char>(sigma_i);
+      spec.sigma_j = static_cast<signed char>(sigma_j);
+      spec.sense = static_cast<signed char>(sense);
+      spec.mode.at[i] = sigma_i > 0 ? ContactState::slides_along : ContactState::slides_against;
+      spec.mode.at[j] = sigma_j > 0 ? ContactState::slides_along : ContactState::slides_against;
+    }
+}
+
+}  // namespace surefoot::stability

@@ -1,0 +1,101 @@
+// A set of 1 to 3 contacts with all that does not depend on the COM: scaled normals, cone edges, the facets of the
+// equilibrium cone, and the list of non-static modes that the geometry of these contacts allows for any COM.
+// Every decision made here is exact for the doubles given.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "stability/contact.hpp"
+#include "stability/rows.hpp"
+
+namespace surefoot::stability {
+
+/// A facet of the contact wrench cone [theory section 3]: the plane through rays `a` and `b` (ray 2 i + edge), with the
+/// inner normal z about contact 1's position. z = sign * (ray a x ray b).
+struct Facet {
+  Row<double> z;
+  signed char a = 0, b = 0, sign = 1;
+};
+
+class Posture {
+ public:
+  /// Asserts on non-finite numbers, a count outside 1..3, negative friction, zero normals, rho <= 0.
+  Posture(std::span<const Contact> contacts, double radius_of_gyration);
+
+  int contacts() const { return count_; }
+  /// True if the cone has no interior (all rays in one plane or on one line): nothing robust, never an equilibrium.
+  bool flat_cone() const { return flat_cone_; }
+  std::span<const Facet> facets() const { return {facets_.data(), static_cast<std::size_t>(facet_count_)}; }
+  std::span<const ModeSpec> modes() const { return {modes_.data(), static_cast<std::size_t>(mode_count_)}; }
+  /// Error bound of facet normals: z.q of facet_error, z.p and z.one of facet_error * spread() [m].
+  double facet_error() const { return facet_error_; }
+  double spread() const { return spread_; }  ///< greatest |d_x| + |d_y| of contacts from contact 1 [m]
+  double edge_bound() const { return edge_bound_; }  ///< a = 1 + max mu
+  double rho2() const { return rho2_; }
+  const Eigen::Vector2d& position(int i) const { return position_[i]; }
+
+  /// sign of (x_l - x_i) x n_l: does contact l open (+1) when the body turns about contact i?
+  int turn_sign(int i, int l) const { return turn_sign_[i][l]; }
+  /// Normals (scaled for doubles, as given for rationals) and x_l - x_i.
+  template <class K>
+  Vec2<K> normal(int i) const;
+  template <class K>
+  Vec2<K> offset(int i, int l) const;
+
+  Frame<double> frame(const Eigen::Vector2d& com) const;
+  Frame<Dual> dual_frame(const Eigen::Vector2d& com) const;
+  Frame<Rational> exact_frame(const Eigen::Vector2d& com) const;
+  /// At from + lambda (to - from), which need not be a point of doubles: r = (x_i - from) + lambda (from - to).
+  Frame<double> frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const;
+  Frame<Rational> exact_frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const;
+  /// The inner normal of a facet, exactly.
+  Row<Rational> exact_facet(const Facet& facet) const;
+
+ private:
+  void find_facets();
+  void add_facet_if_supporting(int a, int b);
+  int side(int a, int b, int c) const;  // sign of ray a x ray b . ray c
+  bool parallel(int a, int b) const;
+  bool is_new_plane(int a, int b, const std::array<int, 6>& sides) const;
+  void list_modes();
+  bool can_slide(int i, int sigma, std::array<bool, 3>& row_vanishes) const;
+  void list_slides(int i);
+  int opening_of_third(int i, int j, int l) const;
+  void list_two_slides(int i, int j);
+  void add_roll(int i);
+  ModeSpec& add_mode(ModeSpec::Kind kind);
+
+  int count_;
+  int facet_count_ = 0, mode_count_ = 0;
+  bool flat_cone_ = true;
+  double rho_, rho2_;
+  double edge_bound_ = 1, facet_error_ = 0, spread_ = 0;
+  std::array<Eigen::Vector2d, 3> position_;
+  std::array<Vec2<double>, 3> normal_;        // scaled by a power of two to components below 1
+  std::array<Vec2<double>, 3> given_normal_;  // as given: what exact decisions use
+  std::array<double, 3> friction_;
+  std::array<Row<double>, 6> rays_;     // about contact 1: (C, d x C)
+  std::array<Facet, 30> facets_;
+  std::array<ModeSpec, 22> modes_;
+  std::array<std::array<signed char, 3>, 3> turn_sign_{};
+};
+
+template <>
+inline Vec2<double> Posture::normal<double>(int i) const {
+  return normal_[i];
+}
+template <>
+inline Vec2<Rational> Posture::normal<Rational>(int i) const {
+  return {Rational(given_normal_[i].x), Rational(given_normal_[i].y)};
+}
+template <>
+inline Vec2<double> Posture::offset<double>(int i, int l) const {
+  return {position_[l].x() - position_[i].x(), position_[l].y() - position_[i].y()};
+}
+template <>
+inline Vec2<Rational> Posture::offset<Rational>(int i, int l) const {
+  return {Rational(position_[l].x()) - Rational(position_[i].x()), Rational(position_[l].y()) - Rational(position_[i].y())};
+}
+
+}  // namespace surefoot::stability

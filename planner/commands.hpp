@@ -1,0 +1,40 @@
+// The commands of `surefoot`, without the parsing of their arguments. Each returns its exit status; bad input is
+// thrown as terrain::InputError, output that cannot be written as OutputError (both end in exit_bad_input).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "gaits/scene.hpp"
+
+namespace surefoot::planner {
+
+enum ExitStatus : int {
+  exit_success = 0,      ///< solved; the plan holds; all lines were read
+  exit_failure = 1,      ///< no plan within the limit; the plan does not hold
+  exit_bad_input = 2,    ///< bad input or usage, or output that cannot be written
+  exit_infeasible = 3,   ///< proven that there is no plan
+};
+
+struct PlanArguments {
+  std::string scene;
+  std::optional<std::string> output, svg;        ///< files; "-" is stdout
+  std::optional<std::string> format;             ///< text, json, yaml; otherwise by the name of the output
+  std::optional<std::int64_t> seed;              ///< the rest override the scene's `search`
+  std::optional<double> time_limit;              ///< [s]
+  std::optional<std::string> planner, objective;
+  bool no_refine = false, explain = false, quiet = false, verbose = false;
+};
+
+int run_plan(const PlanArguments& arguments);
+int run_check(const std::string& scene, const std::string& plan);
+/// Lines of `file`, "-" for stdin.
+int run_query(const std::string& file);
+
+/// Loads a scene, "-" from stdin. For a file that does not exist the error names what may have been meant.
+gaits::Scene open_scene(const std::string& path);
+/// All of stdin.
+std::string read_stdin();
+
+}  // namespace surefoot::planner

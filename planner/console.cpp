@@ -1,0 +1,74 @@
+#include "planner/console.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+
+namespace surefoot::planner {
+
+namespace {
+
+/// 0, or errno of the write that failed.
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void guard_standard_streams() {
+  // The opposite access mode: the stream exists, but using it stays the error that it was.
+  for (int descriptor = 0; descriptor <= 2; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
+      if (::open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) != descriptor) std::_Exit(2);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+void write_stdout(std::string_view text) {
+  const int fault = write_all(STDOUT_FILENO, text);
+  if (fault == EPIPE) throw ReaderGone("standard output was closed by its reader");
+  if (fault != 0) throw OutputError(fmt::format("cannot write to standard output: {}", std::strerror(fault)));
+}
+
+void note(std::string_view text) { write_all(STDERR_FILENO, fmt::format("surefoot: {}\n", one_line(text))); }
+
+void report_error(std::string_view text) { note(fmt::format("error: {}", text)); }
+
+void show_progress(std::string_view text) {
+  static bool shown = false;
+  if (!::isatty(STDERR_FILENO) || (text.empty() && !shown)) return;
+  write_all(STDERR_FILENO, fmt::format("\r\x1b[K{}", one_line(text)));
+  shown = !text.empty();
+}
+
+bool stdout_takes_colour() {
+  const char* no_colour = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  if (no_colour != nullptr && *no_colour != '\0') return false;
+  return ::isatty(STDOUT_FILENO) && (terminal == nullptr || std::strcmp(terminal, "dumb") != 0);
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n')
+      line += "\\n";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      line += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    else
+      line += c;
+  }
+  return line;
+}
+
+}  // namespace surefoot::planner

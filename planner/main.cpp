@@ -1,0 +1,161 @@
+// The command line of surefoot: parses arguments, maps everything that goes wrong to one line on stderr and an exit
+// status (commands.hpp).
+#include <fmt/format.h>
+#include <nlopt.h>
+#include <ompl/config.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "planner/commands.hpp"
+#include "planner/console.hpp"
+#include "planner/search.hpp"
+#include "terrain/document.hpp"
+
+namespace {
+
+using namespace surefoot::planner;
+using surefoot::terrain::InputError;
+using surefoot::terrain::near_miss;
+
+std::string version() {
+  int major = 0, minor = 0, bugfix = 0;
+  nlopt_version(&major, &minor, &bugfix);
+  return fmt::format(
+      "surefoot {}\nOMPL {}.{}.{}, NLopt {}.{}.{}, Eigen {}.{}.{}, yaml-cpp {}, nlohmann-json {}.{}.{}, CLI11 {}, fmt {}.{}.{}",
+      SUREFOOT_VERSION, OMPL_MAJOR_VERSION, OMPL_MINOR_VERSION, OMPL_PATCH_VERSION, major, minor, bugfix,
+      EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, SUREFOOT_YAML_CPP_VERSION,
+      NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION,
+      FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
+}
+
+struct Arguments {
+  PlanArguments plan;
+  std::string check_scene, check_plan, query_file = "-";
+};
+
+CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
+  CLI::App* plan = app.add_subcommand("plan", "Plan a gait for a scene, verify it and print it");
+  plan->add_option("SCENE", a.scene, "scene file (YAML), - for standard input")->required();
+  plan->add_option("-o,--output", a.output, "write the plan to FILE (replaced as a whole), - for standard output")
+      ->type_name("FILE");
+  plan->add_option("--format", a.format, "text, json or yaml (default: by the name of FILE, else text)")->type_name("NAME");
+  plan->add_option("--svg", a.svg, "also draw the plan")->type_name("FILE");
+  plan->add_option("--seed", a.seed, "seed of the search (default: the scene's, else 1)")->type_name("N");
+  plan->add_option("--time-limit", a.time_limit, "seconds until the search gives up (default: the scene's, else 10)")
+      ->type_name("S");
+  plan->add_option("--planner", a.planner, fmt::format("{}", fmt::join(planner_names(), ", ")))->type_name("NAME");
+  plan->add_option("--objective", a.objective, "steps, safety or distance")->type_name("NAME");
+  plan->add_flag("--no-refine", a.no_refine, "leave the plan as the search found it");
+  plan->add_flag("--explain", a.explain, "say what limits each step, and what was left out and why");
+  auto* quiet = plan->add_flag("-q,--quiet", a.quiet, "nothing but the result: no progress, no notes");
+  plan->add_flag("-v,--verbose", a.verbose, "counts and times of each stage on standard error")->excludes(quiet);
+  plan->footer(
+      "Exit status: 0 solved, 1 no plan found within the limit, 2 bad input or usage, 3 proven infeasible.\n"
+      "Example: surefoot plan maps/stairs_up.yaml -o plan.json --svg plan.svg");
+  return plan;
+}
+
+CLI::App* add_check(CLI::App& app, Arguments& a) {
+  CLI::App* check = app.add_subcommand("check", "Verify a plan file against a scene, independently of the planner");
+  check->add_option("SCENE", a.check_scene, "scene file (YAML), - for standard input")->required();
+  check->add_option("PLAN", a.check_plan, "plan file (JSON or YAML), - for standard input")->required();
+  check->footer(
+      "Exit status: 0 the plan holds, 1 it does not (one line per fault), 2 bad input or usage.\n"
+      "Example: surefoot check maps/stairs_up.yaml plan.json");
+  return check;
+}
+
+CLI::App* add_query(CLI::App& app, Arguments& a) {
+  CLI::App* query = app.add_subcommand("query", "Answer questions about postures: JSON lines in, JSON lines out");
+  query->add_option("FILE", a.query_file, "file of queries, - or nothing for standard input")->type_name("FILE");
+  query->footer(
+      "One answer per line, in order; a bad line (an empty one too) answers {\"error\": ..., \"line\": N}.\n"
+      "Exit status: 0 all lines were read, 2 bad input or usage.\n"
+      "Example: echo '{\"contacts\": [{\"p\": [0,0], \"n\": [0,1], \"mu\": 0.5}, {\"p\": [1,0], \"n\": [0,1], \"mu\": 0.5}],\n"
+      "          \"com\": [0.5,0.4], \"rho\": 0.2, \"kappa\": 0.17, \"nu\": 0.1}' | surefoot query");
+  return query;
+}
+
+/// What the parser says, with the option or command that may have been meant.
+std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
+  std::vector<std::string> commands, options{"--help", "--version"};
+  const CLI::App* chosen = nullptr;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(command->get_name());
+    if (command->parsed()) chosen = command;
+  }
+  if (chosen == nullptr && count > 1 && words[1][0] != '-') {
+    const std::string meant = near_miss(words[1], commands);
+    return fmt::format("unknown command '{}'{}; there are {}", words[1],
+                       meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
+  }
+  std::string message = fault.what();
+  const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&fault);
+  if (extras == nullptr) return message;
+  if (chosen != nullptr)
+    for (const CLI::Option* option : chosen->get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (int i = 1; i < count; ++i) {
+    const std::string word = std::string(words[i]).substr(0, std::string(words[i]).find('='));
+    if (word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
+      if (const std::string meant = near_miss(word, options); !meant.empty())
+        return fmt::format("unknown option {}, did you mean {}?", word, meant);
+  }
+  return message;
+}
+
+int run(int count, char** words) {
+  CLI::App app("Quasistatic 2-3-2 gait planner for a planar three-legged robot.", "surefoot");
+  Arguments arguments;
+  app.set_help_flag("-h,--help", "Print this and exit");
+  app.set_version_flag("--version", version());
+  app.require_subcommand(1);
+  app.footer("surefoot COMMAND --help tells more.");
+  const CLI::App* plan = add_plan(app, arguments.plan);
+  const CLI::App* check = add_check(app, arguments);
+  add_query(app, arguments);
+  if (count <= 1) {
+    report_error("a command is missing: plan, check or query (surefoot --help tells more)");
+    return exit_bad_input;
+  }
+  try {
+    app.parse(count, words);
+  } catch (const CLI::CallForHelp&) {
+    write_stdout(app.help());
+    return exit_success;
+  } catch (const CLI::CallForVersion&) {
+    write_stdout(version() + "\n");
+    return exit_success;
+  } catch (const CLI::ParseError& fault) {
+    report_error(usage_fault(app, fault, count, words));
+    return exit_bad_input;
+  }
+  if (plan->parsed()) return run_plan(arguments.plan);
+  if (check->parsed()) return run_check(arguments.check_scene, arguments.check_plan);
+  return run_query(arguments.query_file);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  guard_standard_streams();
+  try {
+    return run(count, words);
+  } catch (const ReaderGone&) {
+  } catch (const InputError& fault) {
+    report_error(fault.what());
+  } catch (const OutputError& fault) {
+    report_error(fault.what());
+  } catch (const std::bad_alloc&) {
+    report_error("out of memory");
+  } catch (const std::exception& fault) {
+    report_error(fmt::format("internal: {}", fault.what()));
+  }
+  return exit_bad_input;
+}

@@ -1,0 +1,116 @@
+#include "planner/output_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "planner/console.hpp"
+
+namespace surefoot::planner {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, int fault) {
+  throw OutputError(fmt::format("{}: cannot write: {}", path.empty() ? "''" : path, std::strerror(fault)));
+}
+
+/// Writes, flushes to the disk and closes; 0 or errno.
+int write_and_close(int descriptor, std::string_view text, bool flush) {
+  int fault = 0;
+  while (fault == 0 && !text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written >= 0)
+      text.remove_prefix(static_cast<std::size_t>(written));
+    else if (errno != EINTR)
+      fault = errno;
+  }
+  if (fault == 0 && flush && ::fsync(descriptor) != 0) fault = errno;
+  if (::close(descriptor) != 0 && fault == 0) fault = errno;
+  return fault;
+}
+
+/// Where a path leads, through symbolic links, dangling ones too.
+std::string follow_links(const std::string& path) {
+  std::error_code ignored;
+  fs::path target = path;
+  constexpr int most_links = 40;  // as the kernel's own limit
+  for (int i = 0; i < most_links && fs::is_symlink(target, ignored); ++i) {
+    const fs::path link = fs::read_symlink(target, ignored);
+    target = link.is_absolute() ? link : target.parent_path() / link;
+  }
+  return target.string();
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(follow_links(path_)) {
+  if (path_.empty()) fail(path_, ENOENT);
+  struct stat status{};
+  if (::stat(target_.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) fail(path_, EISDIR);
+    if (::access(target_.c_str(), W_OK) != 0) fail(path_, errno);
+    replaceable_ = S_ISREG(status.st_mode);
+    mode_ = status.st_mode & 07777u;
+  } else if (errno != ENOENT) {
+    fail(path_, errno);
+  } else {
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    mode_ = 0666u & ~mask;
+  }
+  if (!replaceable_) return;
+  ::close(make_temporary());
+  ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+OutputFile::~OutputFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+int OutputFile::make_temporary() {
+  const fs::path target = target_;
+  if (target.filename().empty()) fail(path_, EISDIR);
+  std::string name = (target.parent_path() / (".surefoot-XXXXXX")).string();
+  const int descriptor = ::mkstemp(name.data());
+  if (descriptor < 0) fail(path_, errno);
+  temporary_ = name;
+  if (::fchmod(descriptor, mode_) != 0) fail(path_, errno);
+  return descriptor;
+}
+
+void OutputFile::stage(std::string_view text) {
+  if (!replaceable_) {
+    direct_ = text;
+    return;
+  }
+  const int fault = write_and_close(make_temporary(), text, true);
+  if (fault != 0) fail(path_, fault);
+}
+
+void OutputFile::commit() {
+  if (!replaceable_) {
+    const int descriptor = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    const int fault = descriptor < 0 ? errno : write_and_close(descriptor, direct_, false);
+    if (fault != 0) fail(path_, fault);
+    return;
+  }
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, errno);
+  temporary_.clear();
+}
+
+bool OutputFile::same_as(const std::string& other) const {
+  std::error_code ignored;
+  if (!replaceable_) return false;
+  return fs::weakly_canonical(target_, ignored) == fs::weakly_canonical(follow_links(other), ignored) ||
+         fs::equivalent(target_, other, ignored);
+}
+
+}  // namespace surefoot::planner

@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "gaits/plan_io.hpp"
+#include "gaits/verifier.hpp"
+#include "planner/commands.hpp"
+#include "planner/console.hpp"
+#include "planner/output_file.hpp"
+#include "planner/refine.hpp"
+#include "planner/search.hpp"
+
+namespace surefoot::planner {
+
+namespace {
+
+constexpr std::int64_t greatest_seed = 2147483562;  // of OMPL's generator; 0 acts as 1 there, so it is refused
+
+/// `word` among `words`, upper or lower case alike. Throws, with the near miss, if it is none of them.
+std::string one_of(const std::string& what, const std::string& word, const std::vector<std::string>& words) {
+  const auto same = [&word](const std::string& other) {
+    return std::equal(word.begin(), word.end(), other.begin(), other.end(),
+                      [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+  };
+  const auto found = std::find_if(words.begin(), words.end(), same);
+  if (found != words.end()) return *found;
+  const std::string meant = terrain::near_miss(word, words);
+  throw terrain::InputError(fmt::format("{}: found '{}', expected one of {}{}", what, word, fmt::join(words, ", "),
+                                        meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
+}
+
+/// The scene's defaults, overridden by the command line. The scene says nothing wrong about numbers; its words are
+/// looked at here, where the planners are known.
+SearchOptions search_options(const PlanArguments& arguments, const gaits::Scene& scene) {
+  SearchOptions options{.seed = scene.search.seed,
+                        .time_limit = arguments.time_limit.value_or(scene.search.time_limit),
+                        .planner = {},
+                        .objective = {}};
+  if (arguments.seed) {
+    if (*arguments.seed < 1 || *arguments.seed > greatest_seed)
+      throw terrain::InputError(fmt::format("--seed: found {}, expected 1 to {}", *arguments.seed, greatest_seed));
+    options.seed = static_cast<std::uint32_t>(*arguments.seed);
+  }
+  if (!std::isfinite(options.time_limit) || options.time_limit <= 0)
+    throw terrain::InputError(fmt::format("--time-limit: found {}, expected seconds > 0", options.time_limit));
+  options.planner = arguments.planner ? one_of("--planner", *arguments.planner, planner_names())
+                                      : one_of(scene.file + ": search.planner", scene.search.planner, planner_names());
+  const std::vector<std::string> objectives{"steps", "safety", "distance"};
+  options.objective = arguments.objective
+                          ? one_of("--objective", *arguments.objective, objectives)
+                          : one_of(scene.file + ": search.objective", scene.search.objective, objectives);
+  return options;
+}
+
+/// As asked for, otherwise by the name of the output, otherwise text.
+std::string output_format(const PlanArguments& arguments) {
+  if (arguments.format) return one_of("--format", *arguments.format, {"text", "json", "yaml"});
+  const std::string name = arguments.output.value_or("");
+  if (name.ends_with(".json")) return "json";
+  if (name.ends_with(".yaml") || name.ends_with(".yml")) return "yaml";
+  return "text";
+}
+
+std::string written(const gaits::Scene& scene, const gaits::Plan& plan, const std::string& format, bool explain,
+                    bool colour) {
+  std::string text = format == "json"   ? gaits::to_json(plan)
+                     : format == "yaml" ? gaits::to_yaml(plan)
+                                        : gaits::to_text(scene, plan, {.colour = colour, .explain = explain});
+  if (text.empty() || text.back() != '\n') text += '\n';
+  return text;
+}
+
+/// The files a plan goes to, checked before the search, filled only when there is a plan.
+struct Outputs {
+  std::unique_ptr<OutputFile> plan, svg;
+  bool svg_to_stdout = false;
+};
+
+std::unique_ptr<OutputFile> open_output(const std::optional<std::string>& path, const std::string& scene) {
+  if (!path || *path == "-") return nullptr;
+  auto file = std::make_unique<OutputFile>(*path);
+  if (scene != "-" && file->same_as(scene))
+    throw terrain::InputError(fmt::format("{}: is the scene itself and would be overwritten", *path));
+  return file;
+}
+
+Outputs open_outputs(const PlanArguments& arguments) {
+  Outputs outputs{.plan = open_output(arguments.output, arguments.scene),
+                  .svg = open_output(arguments.svg, arguments.scene),
+                  .svg_to_stdout = arguments.svg == "-"};
+  if (outputs.plan && outputs.svg && outputs.plan->same_as(outputs.svg->path()))
+    throw terrain::InputError(fmt::format("{}: both -o and --svg would write this file", outputs.svg->path()));
+  if (outputs.svg_to_stdout && !outputs.plan)
+    throw terrain::InputError("--svg -: standard output is taken by the plan; give -o a file name too");
+  return outputs;
+}
+
+/// The refined plan where it holds, the plan as found where only that holds; `fault` where neither does.
+gaits::Plan refine_and_verify(const gaits::Scene& scene, const gaits::Plan& found, bool refine_it, bool verbose,
+                              std::string& fault) {
+  const auto refusal = [&scene](const gaits::Plan& plan) -> std::string {
+    const gaits::Verification verification = gaits::verify(scene, plan);
+    if (verification.holds()) return {};
+    const gaits::Fault& first = verification.faults.front();
+    return fmt::format("{}: {}: {}", first.place, gaits::to_string(first.rule), first.message);
+  };
+  if (refine_it) {
+    gaits::Plan refined = refine(scene, found);
+    const std::string refused = refusal(refined);
+    if (refused.empty()) return refined;
+    if (verbose) note("the refined plan does not hold and is dropped: " + refused);
+  }
+  fault = refusal(found);
+  return found;
+}
+
+void tell(const gaits::Plan& plan) {
+  if (plan.safety_factor_before_refinement)
+    note(fmt::format("refined: least safety factor {:.6g} -> {:.6g}", *plan.safety_factor_before_refinement,
+                     plan.safety_factor));
+  note(fmt::format("verified: {} stances, {} transfers", plan.stances.size(), plan.transfers.size()));
+}
+
+void deliver(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan, Outputs& outputs) {
+  const bool colour = !outputs.plan && stdout_takes_colour();
+  const std::string text = written(scene, plan, output_format(arguments), arguments.explain, colour);
+  const std::string drawing = arguments.svg ? gaits::to_svg(scene, plan) : std::string();
+  if (outputs.plan) outputs.plan->stage(text);
+  if (outputs.svg) outputs.svg->stage(drawing);
+  if (!outputs.plan) write_stdout(text);
+  if (outputs.svg_to_stdout) write_stdout(drawing);
+  for (OutputFile* file : {outputs.plan.get(), outputs.svg.get()})
+    if (file != nullptr) {
+      file->commit();
+      if (!arguments.quiet) note("wrote " + file->path());
+    }
+}
+
+/// No plan: said where the plan would have gone, but no file is touched.
+int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan,
+                   const Outputs& outputs) {
+  if (!outputs.plan)
+    write_stdout(written(scene, plan, output_format(arguments), arguments.explain, stdout_takes_colour()));
+  else
+    note(fmt::format("{}{}{}; {} is not written", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ",
+                     plan.reason, outputs.plan->path()));
+  return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
+}
+
+}  // namespace
+
+int run_plan(const PlanArguments& arguments) {
+  output_format(arguments);  // says what is wrong with it before anything else is done
+  const gaits::Scene scene = open_scene(arguments.scene);
+  const SearchOptions options = search_options(arguments, scene);
+  Outputs outputs = open_outputs(arguments);
+  if (arguments.verbose)
+    note(fmt::format("{}: {} segments, planner {}, seed {}, time limit {} s", scene.name,
+                     scene.terrain.segments().size(), options.planner, options.seed, options.time_limit));
+  if (!arguments.quiet) show_progress(fmt::format("searching ({}, at most {} s) ...", options.planner, options.time_limit));
+  const auto begin = std::chrono::steady_clock::now();
+  const auto elapsed = [begin] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  gaits::Plan plan = search(scene, options);
+  show_progress("");
+  if (arguments.verbose) note(fmt::format("search: {}, {} steps, {:.3f} s", gaits::to_string(plan.status), plan.steps(), elapsed()));
+  if (plan.status == gaits::Status::solved) {
+    std::string fault;
+    plan = refine_and_verify(scene, plan, !arguments.no_refine, arguments.verbose, fault);
+    if (!fault.empty()) {
+      report_error("internal: the verifier refuses the plan that was found, nothing is printed: " + fault);
+      return exit_failure;
+    }
+    if (arguments.verbose) tell(plan);
+  }
+  plan.time_s = elapsed();
+  if (plan.status != gaits::Status::solved) return report_no_plan(arguments, scene, plan, outputs);
+  deliver(arguments, scene, plan, outputs);
+  return exit_success;
+}
+
+}  // namespace surefoot::planner

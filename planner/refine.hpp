@@ -1,0 +1,27 @@
+// Moves the COM waypoints, and footholds within their segments, of a plan to raise its least safety factor (then the
+// sum), with NLopt and the oracle's gradients. Guarantees: the result passes gaits::verify if the input does, its least
+// safety factor is not below the input's, steps and segments stay the same, the result is the same every time. Does not
+// guarantee a global optimum. The cost grows linearly with the number of steps.
+//
+// Windows of a few neighbouring COMs are treated in turn, the weakest place first. A safety factor is a minimum of
+// many smooth functions of which the oracle tells value and gradient of the least, and the optimum lies on ridges
+// where several meet; a gradient method on the factor itself zigzags there. So every evaluation leaves a cut (its tangent)
+// and NLopt maximises the least of the cuts within a trust region (refine_model.hpp), until the region is small.
+#pragma once
+
+#include "gaits/plan.hpp"
+#include "gaits/scene.hpp"
+
+namespace surefoot::planner {
+
+struct RefineOptions {
+  int max_evaluations = 40;  ///< evaluations per window of the plan
+  int sweeps = 2;            ///< passes over the plan
+  int window = 5;            ///< neighbouring COMs that move together, >= 1
+  bool leave_out = true;     ///< skip windows that cannot gain (for tests of that rule)
+};
+
+/// A plan that is not solved comes back as it is. Never throws on a plan that holds.
+gaits::Plan refine(const gaits::Scene& scene, const gaits::Plan& plan, const RefineOptions& options = {});
+
+}  // namespace surefoot::planner

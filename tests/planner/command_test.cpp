@@ -1,0 +1,244 @@
+// The commands end to end: the built program, run on files as a user runs it.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+using nlohmann::json;
+using surefoot::tests::Workplace;
+
+namespace {
+
+const std::string scene = R"(surefoot: 1
+terrain:
+  friction: 0.6
+  chains:
+    - vertices: [[-1, 0], [4, 0]]
+robot: {radius_of_gyration: 0.15, reach: [0.2, 0.9], clearance: 0.1}
+disturbance: {kappa: 0.1, nu: 0.03}
+start:
+  feet: [{x: -0.3}, {x: 0.25}, {x: 0}]
+  support: [1, 2]
+goal: {com_x: [1.5, 2]}
+)";
+
+std::string with(const std::string& piece, const std::string& other) {
+  std::string text = scene;
+  const auto at = text.find(piece);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, piece.size(), other);
+}
+
+/// Neither written nor left beside.
+void check_untouched(const Workplace& place, std::ptrdiff_t files) {
+  CHECK(place.read("plan.json") == "precious");
+  CHECK(place.read("plan.svg") == "precious");
+  CHECK(place.count() == files);
+}
+
+}  // namespace
+
+TEST_CASE("A plan is printed, and a plan file is accepted by check", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  const auto text = place.run("plan scene.yaml");
+  CHECK(text.status == 0);
+  CHECK(text.err.empty());
+  CHECK(text.out.find('\x1b') == std::string::npos);
+  CHECK_THAT(text.out, Catch::Contains("step"));
+  for (const std::string format : {"json", "yaml"}) {
+    const auto run = place.run("plan scene.yaml --format " + format + " -o plan." + format + " --svg plan.svg");
+    CHECK(run.status == 0);
+    CHECK(run.out.empty());
+    CHECK_THAT(place.read("plan.svg"), Catch::Contains("<svg"));
+    const auto check = place.run("check scene.yaml plan." + format);
+    CHECK(check.status == 0);
+    CHECK(check.err.empty());
+    CHECK(check.out.starts_with("holds: "));
+  }
+  CHECK(place.count() == 4);
+}
+
+TEST_CASE("JSON on stdout is the same plan as JSON in a file, and the same seed gives it again", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  const auto tree = [](const std::string& text) {
+    json parsed = json::parse(text);
+    parsed.erase("time_s");
+    return parsed;
+  };
+  const auto first = place.run("plan scene.yaml --format json --seed 7"), second = place.run("plan - --format json --seed 7 -o -", scene);
+  REQUIRE(first.status == 0);
+  REQUIRE(second.status == 0);
+  REQUIRE(place.run("plan scene.yaml -q --seed 7 -o plan.json").status == 0);
+  json from_stdin = tree(second.out), from_file = tree(place.read("plan.json"));
+  from_stdin["scene"] = from_file["scene"];  // a scene from stdin has no file name to be called by
+  CHECK(tree(first.out) == from_file);
+  CHECK(from_stdin == from_file);
+  CHECK(from_file["seed"] == 7);
+}
+
+TEST_CASE("A plan that was tampered with does not hold, and check says where", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  json plan = json::parse(place.run("plan scene.yaml --format json").out);
+  plan["stances"][1]["com"][1] = 3.0;
+  place.write("plan.json", plan.dump());
+  const auto check = place.run("check scene.yaml plan.json");
+  CHECK(check.status == 1);
+  CHECK(check.err.empty());
+  CHECK_THAT(check.out, Catch::Contains("reach"));
+  CHECK_THAT(check.out, !Catch::Contains("holds"));
+  plan["status"] = "no_plan_found";
+  place.write("plan.json", plan.dump());
+  CHECK(place.run("check scene.yaml plan.json").status == 1);
+}
+
+TEST_CASE("Without a plan the status says so and no file is touched", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [0.6, 0], [0.6, -9], [5, -9], [5, 0], [6, 0]]"));
+  place.write("plan.json", "precious");
+  place.write("plan.svg", "precious");
+  const auto run = place.run("plan scene.yaml --time-limit 0.3 -o plan.json --svg plan.svg");
+  CHECK((run.status == 1 || run.status == 3));
+  CHECK(run.out.empty());
+  check_untouched(place, 3);
+  const auto text = place.run("plan scene.yaml --time-limit 0.3 --format json");
+  CHECK(text.status == run.status);
+  CHECK(json::parse(text.out)["status"] == (run.status == 1 ? "no_plan_found" : "infeasible"));
+}
+
+TEST_CASE("Bad scenes give one error with its place, status 2, and leave files alone", "[command]") {
+  struct Bad {
+    const char* what;
+    std::string text;
+    const char* place;  // in the error
+  };
+  const std::vector<Bad> bad{
+      {"broken YAML", with("chains:", "chains: ["), "scene.yaml:"},
+      {"tab", with("  friction", "\tfriction"), "scene.yaml:3:"},
+      {"unknown key", with("friction:", "frictoin:"), "scene.yaml:3:3"},
+      {"wrong type", with("0.6", "slippery"), "scene.yaml:3:13"},
+      {"NaN", with("0.6", ".nan"), "scene.yaml:3:13"},
+      {"infinite", with("0.6", ".inf"), "scene.yaml:3:13"},
+      {"negative friction", with("0.6", "-0.6"), "scene.yaml:3:13"},
+      {"foot outside the chain", with("{x: -0.3}", "{x: -30}"), "scene.yaml:9:"},
+      {"foot outside by arc length", with("{x: -0.3}", "{chain: 0, s: 99}"), "scene.yaml:9:"},
+      {"feet too far apart for any COM", with("{x: -0.3}, {x: 0.25}", "{x: -0.9}, {x: 2.5}"), "scene.yaml:"},
+      {"COM out of reach", with("  support", "  com: [0, 5]\n  support"), "scene.yaml:"},
+      {"empty", "", "scene.yaml"},
+      {"not a map", "[1, 2]\n", "scene.yaml:1:1"},
+      {"unknown planner", scene + "search: {planner: RTT}\n", "planner"},
+      {"binary", std::string("\0\xff\x01", 3), "scene.yaml"},
+  };
+  for (const Bad& b : bad) {
+    INFO(b.what);
+    const Workplace place;
+    place.write("scene.yaml", b.text);
+    place.write("plan.json", "precious");
+    place.write("plan.svg", "precious");
+    const auto run = place.run("plan scene.yaml -o plan.json --svg plan.svg");
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    INFO(run.err);
+    CHECK(run.one_error());
+    CHECK_THAT(run.err, Catch::Contains(b.place));
+    check_untouched(place, 3);
+  }
+}
+
+TEST_CASE("Bad usage is one error and status 2", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  place.write("plan.json", "precious");
+  place.write("plan.svg", "precious");
+  for (const char* arguments :
+       {"", "paln scene.yaml", "plan", "plan missing.yaml", "plan .", "plan ''", "plan scene.yaml extra", "plan scene.yaml --sede 3",
+        "plan scene.yaml --seed x", "plan scene.yaml --seed 0", "plan scene.yaml --seed -1", "plan scene.yaml --seed 1e3",
+        "plan scene.yaml --seed 99999999999999999999", "plan scene.yaml --time-limit nan", "plan scene.yaml --time-limit -1",
+        "plan scene.yaml --time-limit 0", "plan scene.yaml --format jsno", "plan scene.yaml --planner RTT",
+        "plan scene.yaml --objective speed", "plan scene.yaml -o nowhere/plan.json", "plan scene.yaml -o .",
+        "plan scene.yaml -o ''", "plan scene.yaml -o scene.yaml", "plan scene.yaml -o ./scene.yaml",
+        "plan scene.yaml -o plan.json --svg ./plan.json", "plan scene.yaml -o plan.json --svg nowhere/plan.svg",
+        "plan scene.yaml --svg -", "plan scene.yaml -q -v", "check scene.yaml", "check scene.yaml missing.json",
+        "check scene.yaml scene.yaml", "check scene.yaml plan.json", "check - -", "query a b", "simulate", "region scene.yaml"}) {
+    const auto run = place.run(arguments);
+    INFO("surefoot " << arguments << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK(run.one_error());
+    check_untouched(place, 3);
+    CHECK(place.read("scene.yaml") == scene);
+  }
+}
+
+TEST_CASE("Misspelt words are answered with what was probably meant", "[command]") {
+  const Workplace place;
+  std::filesystem::create_directory(place / "maps");
+  place.write("maps/stairs_up.yaml", scene);
+  CHECK_THAT(place.run("paln x").err, Catch::Contains("did you mean plan?"));
+  CHECK_THAT(place.run("plan maps/stairs_up.yaml --sede 3").err, Catch::Contains("did you mean --seed?"));
+  CHECK_THAT(place.run("plan maps/stairs_up.yaml --planner RTT").err, Catch::Contains("did you mean RRT?"));
+  for (const char* name : {"stairs_up", "stairs_up.yaml", "maps/stairs_pu.yaml", "stairsup"})
+    CHECK_THAT(place.run(std::string("plan ") + name).err, Catch::Contains("did you mean maps/stairs_up.yaml?"));
+}
+
+TEST_CASE("Help and version go to stdout", "[command]") {
+  const Workplace place;
+  for (const char* arguments : {"--help", "-h", "plan --help", "check --help", "query --help"}) {
+    const auto run = place.run(arguments);
+    INFO(arguments);
+    CHECK(run.status == 0);
+    CHECK(run.err.empty());
+    CHECK_THAT(run.out, Catch::Contains("surefoot"));
+  }
+  for (const char* command : {"plan", "check", "query"})
+    CHECK_THAT(place.run(std::string(command) + " --help").out, Catch::Contains("Example: "));
+  const auto version = place.run("--version");
+  CHECK(version.status == 0);
+  for (const char* word : {"surefoot ", "OMPL ", "NLopt ", "Eigen ", "yaml-cpp 0."}) CHECK_THAT(version.out, Catch::Contains(word));
+}
+
+TEST_CASE("Output that cannot be written is an error, not a crash", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  place.write("plan.json", "precious");
+  for (const char* arguments : {"plan scene.yaml >/dev/full", "plan scene.yaml >&-", "plan scene.yaml -o /dev/full",
+                                "plan scene.yaml -o - --svg plan.svg >/dev/full", "--help >/dev/full"}) {
+    const auto run = place.run(arguments);
+    INFO(arguments << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.one_error());
+  }
+  CHECK(place.count() == 2);
+  CHECK(place.shell("{ '" SUREFOOT_BINARY "' plan scene.yaml; echo $? >status; } | true").status == 0);
+  CHECK(std::stoi(place.read("status")) < 3);  // not 128 + SIGPIPE
+  CHECK(place.run("plan scene.yaml 2>&-").status == 0);
+  CHECK(place.run("plan scene.yaml -o plan.json <&- >&- 2>&-").status == 0);
+  CHECK_NOTHROW(json::parse(place.read("plan.json")));
+}
+
+TEST_CASE("An output file keeps its permissions and the links to it", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  place.write("plan.json", "old");
+  std::filesystem::permissions(place / "plan.json", std::filesystem::perms(0640));
+  std::filesystem::create_symlink("plan.json", place / "link.json");
+  REQUIRE(place.run("plan scene.yaml -o link.json").status == 0);
+  CHECK(std::filesystem::is_symlink(place / "link.json"));
+  CHECK(std::filesystem::status(place / "plan.json").permissions() == std::filesystem::perms(0640));
+  CHECK(json::parse(place.read("plan.json"))["status"] == "solved");
+}
+
+TEST_CASE("Quiet says nothing beside the result, verbose counts on stderr", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  CHECK(place.run("plan scene.yaml -q -o plan.json").err.empty());
+  const auto verbose = place.run("plan scene.yaml -v");
+  CHECK(verbose.status == 0);
+  CHECK_THAT(verbose.err, Catch::Contains("verified"));
+  CHECK_THAT(verbose.out, !Catch::Contains("surefoot: "));
+  CHECK(verbose.err.find('\r') == std::string::npos);
+}

@@ -1,0 +1,191 @@
+// The oracle query: what is answered, and that nothing improper gets an answer by guess.
+#include "planner/query.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+using nlohmann::json;
+using surefoot::planner::answer_query;
+
+namespace {
+
+const std::string flat =
+    R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}, {"p": [1,0], "n": [0,2], "mu": 0.5}], )"
+    R"("com": [0.5,0.4], "rho": 0.2, "kappa": 0.17, "nu": 0.1})";
+
+std::string answer(const std::string& line, std::size_t number = 1) {
+  std::string out;
+  answer_query(out, line, number);
+  CHECK(out.find('\n') == std::string::npos);
+  return out;
+}
+
+/// `flat` with one piece of text replaced.
+std::string with(const std::string& piece, const std::string& other) {
+  std::string line = flat;
+  const auto at = line.find(piece);
+  REQUIRE(at != std::string::npos);
+  return line.replace(at, piece.size(), other);
+}
+
+std::string fault(const std::string& line) {
+  INFO(line);
+  const json parsed = json::parse(answer(line, 12));
+  CHECK(parsed.size() == 2);
+  CHECK(parsed["line"] == 12);
+  return parsed["error"];
+}
+
+}  // namespace
+
+TEST_CASE("A level stance that can only slip has the factor mu / kappa", "[query]") {
+  // Tipping over a foot takes 0.5 = s (0.17 * 0.4 + 0.1), s = 2.976; slipping takes 0.5 = 0.17 s, s = 2.941.
+  const json parsed = json::parse(answer(flat));
+  CHECK(parsed["equilibrium"] == true);
+  CHECK(parsed["robust"] == true);
+  CHECK(parsed["safety_factor"].get<double>() == Approx(0.5 / 0.17).epsilon(1e-9));
+  CHECK(parsed["feasible_modes"] == json::array());
+}
+
+TEST_CASE("A level stance that tips first has the tipping factor, its witness and its gradient", "[query]") {
+  // com (0.2, 0.4): 0.2 = s (0.17 * 0.4 + 0.1). d/dx: 1 / 0.168; d/dy: -0.2 * 0.17 / 0.168^2.
+  const json parsed = json::parse(answer(with("[0.5,0.4]", "[0.2,0.4]")));
+  const double sigma = 0.2 / 0.168;
+  CHECK(parsed["safety_factor"].get<double>() == Approx(sigma).epsilon(1e-9));
+  CHECK(std::abs(parsed["witness"][0].get<double>()) == Approx(0.17 * sigma).epsilon(1e-9));
+  CHECK(std::abs(parsed["witness"][1].get<double>()) == Approx(0.1 * sigma).epsilon(1e-9));
+  CHECK(parsed["gradient"][0].get<double>() == Approx(1 / 0.168).epsilon(1e-6));
+  CHECK(parsed["gradient"][1].get<double>() == Approx(-0.2 * 0.17 / (0.168 * 0.168)).epsilon(1e-6));
+}
+
+TEST_CASE("A line is as safe as its least safe point", "[query]") {
+  const json parsed = json::parse(answer(with(R"("rho")", R"("com_to": [0.2, 0.4], "rho")")));
+  CHECK(parsed["robust"] == true);
+  CHECK(parsed["safety_factor"].get<double>() == Approx(0.2 / 0.168).epsilon(1e-9));
+  CHECK(parsed["lambda"].get<double>() == Approx(1));
+  const json beyond = json::parse(answer(with(R"("rho")", R"("com_to": [-0.2, 0.4], "rho")")));
+  CHECK(beyond["equilibrium"] == false);
+  CHECK(beyond["robust"] == false);
+  CHECK(beyond["safety_factor"] == 0.0);
+}
+
+TEST_CASE("Without disturbances a stable posture is safe without limit, written as a string", "[query]") {
+  std::string line = with(R"("kappa": 0.17, "nu": 0.1)", R"("kappa": 0, "nu": 0)");
+  CHECK(json::parse(answer(line))["safety_factor"] == "inf");
+}
+
+TEST_CASE("Answers begin with the promised keys in the promised order", "[query]") {
+  const std::string text = answer(flat);
+  std::size_t last = 0;
+  for (const char* key : {"{\"equilibrium\": ", "\"robust\": ", "\"safety_factor\": ", "\"critical\": ", "\"feasible_modes\": ["}) {
+    INFO(key);
+    const std::size_t at = text.find(key, last);
+    REQUIRE(at != std::string::npos);
+    last = at;
+  }
+}
+
+TEST_CASE("What is not a proper question is refused with its place", "[query]") {
+  using Catch::Contains;
+  CHECK_THAT(fault(""), Contains("empty line"));
+  CHECK_THAT(fault("  \r"), Contains("empty line"));
+  CHECK_THAT(fault("{"), Contains("not JSON"));
+  CHECK_THAT(fault("[1]"), Contains("JSON object"));
+  CHECK_THAT(fault("12"), Contains("JSON object"));
+  CHECK_THAT(fault(flat + " x"), Contains("not JSON"));
+  CHECK_THAT(fault("\xff\xfe"), Contains("not JSON"));
+  CHECK_THAT(fault(with("0.17", "NaN")), Contains("not JSON"));
+  CHECK_THAT(fault(with("0.17", "1e999")), Contains("not JSON"));
+  CHECK_THAT(fault(with("\"rho\"", "\"rhoo\"")), Contains("did you mean \"rho\""));
+  CHECK_THAT(fault(with("\"mu\"", "\"m\"")), Contains("contacts[0]"));
+  CHECK_THAT(fault(with("\"rho\"", "\"com\"")), Contains("twice"));
+  CHECK_THAT(fault(with("\"p\": [0,0]", "\"p\": [0,0], \"p\": [0,0]")), Contains("twice"));
+  CHECK_THAT(fault(with("\"rho\": 0.2, ", "")), Contains("rho is missing"));
+  CHECK_THAT(fault(with("\"com\": [0.5,0.4], ", "")), Contains("com is missing"));
+  CHECK_THAT(fault(with(", \"nu\": 0.1", "")), Contains("nu is missing"));
+  CHECK_THAT(fault(with(", \"mu\": 0.5", "")), Contains("contacts[0].mu is missing"));
+  CHECK_THAT(fault(with("\"mu\": 0.5", "\"mu\": -0.5")), Contains("contacts[0].mu: found -0.5"));
+  CHECK_THAT(fault(with("\"rho\": 0.2", "\"rho\": 0")), Contains("rho: found 0"));
+  CHECK_THAT(fault(with("0.17", "-0.17")), Contains("kappa: found -0.17"));
+  CHECK_THAT(fault(with("0.17", "\"0.17\"")), Contains("a number"));
+  CHECK_THAT(fault(with("0.17", "true")), Contains("a number"));
+  CHECK_THAT(fault(with("[0,1]", "[0,0]")), Contains("contacts[0].n"));
+  CHECK_THAT(fault(with("[0,1]", "[0,1,0]")), Contains("contacts[0].n"));
+  CHECK_THAT(fault(with("[0,1]", "[0,null]")), Contains("contacts[0].n[1]"));
+  CHECK_THAT(fault(with("[0.5,0.4]", "{}")), Contains("com"));
+  CHECK_THAT(fault(with("\"rho\"", "\"restitution\": 0.1, \"rho\"")), Contains("not available in this version"));
+  CHECK_THAT(fault(R"({"contacts": [], "com": [0,0], "rho": 1, "kappa": 0, "nu": 0})"), Contains("1 to 3 contacts"));
+  const std::string contact = R"({"p": [0,0], "n": [0,1], "mu": 0.5})";
+  CHECK_THAT(fault(R"({"contacts": [)" + contact + "," + contact + "," + contact + "," + contact +
+                   R"(], "com": [0,0], "rho": 1, "kappa": 0, "nu": 0})"),
+             Contains("1 to 3 contacts"));
+}
+
+TEST_CASE("Hostile lines are answered by an error, not by a crash", "[query]") {
+  CHECK_FALSE(fault(std::string(100000, '[')).empty());
+  CHECK_FALSE(fault(std::string(1000, '{')).empty());
+  CHECK_FALSE(fault(std::string("{\"a\0b\": 1}", 10)).empty());
+  CHECK(fault(R"({"contacts": ")" + std::string(5000, 'x') + "\"}").size() < 200);
+  for (std::size_t cut = 0; cut < flat.size(); ++cut) CHECK_FALSE(fault(flat.substr(0, cut)).empty());
+}
+
+TEST_CASE("Extreme but finite numbers get a proper answer or an error", "[query]") {
+  for (const char* number : {"1e300", "-1e300", "1e-320", "1e154", "0.0", "-0.0"})
+    for (const char* piece : {"[0.5", "0.2,", "0.17", "0.1}", "[0,1]", "[1,0]", "0.5}"}) {
+      std::string replacement = piece;
+      const auto first = replacement.find_first_of("0123456789");
+      const auto last = replacement.find_first_not_of("0123456789.", first);
+      replacement.replace(first, (last == std::string::npos ? replacement.size() : last) - first, number);
+      const std::string line = with(piece, replacement);
+      INFO(line);
+      CHECK(json::accept(answer(line)));
+    }
+}
+
+TEST_CASE("The program answers every line in order and goes on after a bad one", "[query][program]") {
+  const surefoot::tests::Workplace place;
+  const auto run = place.run("query", flat + "\n\nnonsense\n" + flat + "\r\n" + std::string(2u << 20, 'x') + "\n" + flat);
+  CHECK(run.status == 0);
+  CHECK(run.err.empty());
+  std::istringstream lines(run.out);
+  std::vector<json> answers;
+  for (std::string line; std::getline(lines, line);) answers.push_back(json::parse(line));
+  REQUIRE(answers.size() == 6);
+  CHECK(answers[0]["robust"] == true);
+  CHECK(answers[1]["line"] == 2);
+  CHECK(answers[2]["line"] == 3);
+  CHECK(answers[3] == answers[0]);
+  CHECK_THAT(answers[4]["error"].get<std::string>(), Catch::Contains("longer than"));
+  CHECK(answers[5] == answers[0]);
+}
+
+TEST_CASE("An answer comes while the pipe stays open", "[query][program]") {
+  // The shell sends the second question only after it has read the first answer.
+  const surefoot::tests::Workplace place;
+  place.write("question", flat + "\n");
+  const auto run = place.shell(
+      "mkfifo to; '" SUREFOOT_BINARY "' query <to | { exec 3>to; cat question >&3; timeout 20 head -n 1 >first; "
+      "cat question >&3; exec 3>&-; cat >second; }");
+  CHECK(run.status == 0);
+  CHECK(place.read("first").starts_with("{\"equilibrium\": true"));
+  CHECK(place.read("first") == place.read("second"));
+}
+
+TEST_CASE("An empty input has no answers, and files that cannot be read are one error", "[query][program]") {
+  const surefoot::tests::Workplace place;
+  const auto none = place.run("query -");
+  CHECK(none.status == 0);
+  CHECK(none.out.empty());
+  for (const char* file : {"missing.jsonl", "."}) {
+    const auto run = place.run(std::string("query ") + file);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK(run.one_error());
+  }
+}

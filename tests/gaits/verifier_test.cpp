@@ -365,6 +365,21 @@ TEST_CASE("the free leg must be able to swing one way or the other", "[verifier]
   }
 }
 
+TEST_CASE("a leg that was set down and lifted again swings from where it was set down", "[verifier]") {
+  // Leg 3 is set down at x = 0.45 and lifted; then about (0.05, 0.5) it swings on to x = 0.6. Under the COM a bar spans
+  // the directions from (0.45, 0) to (0.6, 0), another hangs above: blocked both ways. Neither is in the way of a leg.
+  const Scene scene =
+      scene_on(level_ground_and({chain({{0.17, 0.371}, {0.174, 0.374}}), chain({{0.03, 0.65}, {0.07, 0.65}})}));
+  Plan plan = plan_by_hand(scene);
+  plan.stances.insert(plan.stances.begin(), plan.stances.front());
+  plan.stances[1].com = {0.05, 0.5};
+  plan.transfers.insert(plan.transfers.begin(), Transfer{2, foot_at(scene, 5.45), 2, 0, ""});
+  rate(scene, plan);
+  require_only(verify(scene, plan), Rule::swing, "transfer 2 (leg 3)", "cannot swing from (0.45, 0) to (0.6, 0)");
+  CHECK(broken_transfer_rule(scene, plan.stances[1], plan.transfers[1], plan.stances[2].com,
+                             swing_origin(scene, plan, 1)) == Rule::swing);
+}
+
 TEST_CASE("stated safety factors are compared with those found", "[verifier]") {
   const Scene scene = scene_on(level_ground_and());
   Plan plan = plan_by_hand(scene);

@@ -7,8 +7,6 @@
 #include "stability/guard.hpp"
 
 namespace surefoot::stability {
-namespace {
-
 using Kind = ModeSpec::Kind;
 
 /// Extreme twists of K about contact spec.i, as (velocity of that point, alpha).
@@ -19,6 +17,8 @@ struct TwistCone {
   bool free_rotation = false;  // K contains both rotations about x_i: Z must have no moment about it
   void add(const Row<K>& twist) { extreme[count++] = twist; }
 };
+
+namespace {
 
 /// Twists (v tau, alpha) along tau = sigma t_i with v > 0 and v a_l + alpha b_l > 0 for every other contact, where a_l = sigma n_l x n_i and
 /// b_l = (x_l - x_i) x n_l: alpha / v lies between -a_l / b_l over b_l > 0 and over b_l < 0.
@@ -115,17 +115,15 @@ struct RayPolygon {
   }
 };
 
-/// {Z : Z . M^-1 v >= 0 on W}, moments in units of rho, is spanned by four rays. A box without any extent would make it a
-/// half-space, which has none: it is widened a little (a proposal may ask for too much).
-RayPolygon positive_on_box(double rho, const DisturbanceBox& box) {
-  constexpr double least_extent = 1e-6;
-  const bool point = box.kappa == 0 && box.nu == 0;
-  const double kappa = point ? least_extent : box.kappa, nu = point ? least_extent * rho : box.nu;
+/// {Z : Z . M^-1 v >= 0 on W}, moments in units of rho, is spanned by four rays if W has an extent along both axes. An axis
+/// without one is widened (a proposal may ask for too much): otherwise opposite rays would not say which way round.
+RayPolygon positive_on_box(double rho, const DisturbanceBox& box, double widening) {
+  const double kappa = std::max(box.kappa, widening), nu = std::max(box.nu / rho, widening);
   RayPolygon polygon;
   polygon.add({1, kappa, 0});
-  polygon.add({0, nu / rho, 1});
+  polygon.add({0, nu, 1});
   polygon.add({-1, kappa, 0});
-  polygon.add({0, nu / rho, -1});
+  polygon.add({0, nu, -1});
   return polygon;
 }
 
@@ -182,9 +180,17 @@ Covector DualCertificate::propose(const Frame<double>& frame) const {
   if (spec_.kind == Kind::all_break) return propose_breaks(frame, box_);
   const TwistCone<double> cone = twist_cone<double>(posture_, spec_);
   if (cone.free_rotation) return propose_force(frame, spec_, cone, box_);
+  if (box_.kappa > 0 && box_.nu > 0) return propose_widened(frame, cone, 0);
+  for (const double widening : {1e-3, 1e-6, 1e-9})
+    if (const Covector covector = propose_widened(frame, cone, widening); covector.found) return covector;
+  return {};
+}
+
+Covector DualCertificate::propose_widened(const Frame<double>& frame, const TwistCone<double>& cone,
+                                          double widening) const {
   const double rho = std::sqrt(frame.rho2);
   const Vec2<double>& r = frame.at[spec_.i].r;
-  RayPolygon polygon = positive_on_box(rho, box_);
+  RayPolygon polygon = positive_on_box(rho, box_, widening);
   // In the COM frame: Z . e = Z . (v + alpha (r_y, -r_x)) + Z_z alpha.
   for (int k = 0; k < cone.count; ++k) {
     const Row<double>& e = cone.extreme[k];

@@ -25,6 +25,9 @@ struct Covector {
   bool found = false;
 };
 
+template <class K>
+struct TwistCone;
+
 /// Certificates for one mode of one posture and one box.
 class DualCertificate {
  public:
@@ -40,6 +43,7 @@ class DualCertificate {
               const Frame<Rational>& frame_b) const;
 
  private:
+  Covector propose_widened(const Frame<double>& frame, const TwistCone<double>& cone, double widening) const;
   template <class K>
   bool in_cone(const Covector& covector, double error) const;
 

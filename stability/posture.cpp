@@ -162,32 +162,25 @@ Row<K> ray_about(const Vec2<K>& d, const Vec2<K>& n, const K& mu, int edge) {
 Row<Rational> Posture::exact_facet(const Facet& facet) const {
   const auto ray = [&](int k) {
     const int i = k / 2;
-    return ray_about<Rational>(rational(position_[i]) - rational(position_[0]), rational(given_normal_[i]),
-                               Rational(friction_[i]), k % 2);
+    return ray_about<Rational>(offset<Rational>(0, i), normal<Rational>(i), Rational(friction_[i]), k % 2);
   };
   const Row<Rational> z = cross(ray(facet.a), ray(facet.b));
   return facet.sign > 0 ? z : -z;
 }
 
-int Posture::side(int a, int b, int c) const {
+/// The sign of z . ray c for z = ray a x ray b, where doubles cannot tell.
+int Posture::exact_side(int a, int b, int c) const {
   const auto same_direction = [&](int k, int l) {
-    return k % 2 == l % 2 && friction_[k / 2] == friction_[l / 2] && same(normal_[k / 2], normal_[l / 2]);
+    return k % 2 == l % 2 && friction_[k / 2] == friction_[l / 2] && same(given_normal_[k / 2], given_normal_[l / 2]);
   };
   // One ray given twice: frictionless contacts.
   const auto frictionless_pair = [&](int k, int l) { return k / 2 == l / 2 && friction_[k / 2] == 0; };
   if (frictionless_pair(a, b) || frictionless_pair(a, c) || frictionless_pair(b, c)) return 0;
   // Parallel forces span a plane whatever their lines of action: flat ground, parallel treads.
   if (same_direction(a, b) && same_direction(b, c)) return 0;
-  const Row<double> z = cross(rays_[a], rays_[b]);
-  const double value = dot(z, rays_[c]);
-  // z: 9 u of 2 a^2 (spread); the product with the third ray: at most 3 terms, 8 u more, of 6 a^3 spread.
-  const double bound = 128 * unit_roundoff * edge_bound_ * edge_bound_ * edge_bound_ * spread_ + underflow_slack;
-  return certain_sign(value, bound, [&] {
-    const Row<Rational> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
-    const int i = c / 2;
-    return dot(exact, ray_about<Rational>(rational(position_[i]) - rational(position_[0]), rational(given_normal_[i]),
-                                          Rational(friction_[i]), c % 2));
-  });
+  const Row<Rational> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
+  const int i = c / 2;
+  return dot(exact, ray_about<Rational>(offset<Rational>(0, i), normal<Rational>(i), Rational(friction_[i]), c % 2)).sign();
 }
 
 bool Posture::parallel(int a, int b) const {
@@ -211,11 +204,15 @@ bool Posture::is_new_plane(int a, int b, const std::array<int, 6>& sides) const 
 }
 
 void Posture::add_facet_if_supporting(int a, int b) {
+  const Row<double> z = cross(rays_[a], rays_[b]);
+  // z: 9 u of 2 a^2 (spread); the product with the third ray: at most 3 terms, 8 u more, of 6 a^3 spread.
+  const double bound = 128 * unit_roundoff * edge_bound_ * edge_bound_ * edge_bound_ * spread_ + underflow_slack;
   std::array<int, 6> sides{};
   bool positive = false, negative = false;
   for (int c = 0; c < 2 * count_; ++c) {
     if (c == a || c == b) continue;
-    sides[c] = side(a, b, c);
+    const double value = dot(z, rays_[c]);
+    sides[c] = value > bound ? 1 : value < -bound ? -1 : exact_side(a, b, c);
     positive |= sides[c] > 0;
     negative |= sides[c] < 0;
     if (positive && negative) {
@@ -225,7 +222,6 @@ void Posture::add_facet_if_supporting(int a, int b) {
   }
   if (positive || negative) flat_cone_ = false;
   if (parallel(a, b) || !is_new_plane(a, b, sides)) return;
-  const Row<double> z = cross(rays_[a], rays_[b]);
   const auto ra = static_cast<signed char>(a), rb = static_cast<signed char>(b);
   if (!negative) facets_[facet_count_++] = {z, ra, rb, 1};
   if (!positive) facets_[facet_count_++] = {-z, ra, rb, -1};
@@ -233,8 +229,8 @@ void Posture::add_facet_if_supporting(int a, int b) {
 
 void Posture::find_facets() {
   for (int i = 0; i < count_; ++i) {
-    const Vec2<double> d{position_[i].x() - position_[0].x(), position_[i].y() - position_[0].y()};
-    for (int e : {edge_u, edge_w}) rays_[2 * i + e] = ray_about<double>(d, normal_[i], friction_[i], e);
+    for (int e : {edge_u, edge_w})
+      rays_[2 * i + e] = ray_about<double>(offset<double>(0, i), normal_[i], friction_[i], e);
   }
   for (int b = 1; b < 2 * count_; ++b)
     for (int a = 0; a < b; ++a) add_facet_if_supporting(a, b);
@@ -290,7 +286,7 @@ bool Posture::can_slide(int i, int sigma, std::array<bool, 3>& row_vanishes) con
     if (turn > 0) positive = l;
     if (turn < 0) negative = l;
     if (turn != 0) continue;
-    const int along = sigma * cross(rational(given_normal_[l]), rational(given_normal_[i])).sign();
+    const int along = sigma * cross(normal<Rational>(l), normal<Rational>(i)).sign();
     if (along < 0) return false;
     row_vanishes[l] = along == 0;  // both normals on one line
   }
@@ -312,16 +308,12 @@ void Posture::list_slides(int i) {
 /// The sign of N_l . (N_i x N_j).
 int Posture::opening_of_third(int i, int j, int l) const {
   if (same(given_normal_[i], given_normal_[j]) && same(given_normal_[j], given_normal_[l])) return 0;
-  const auto offset = [&](int k) {
-    return Vec2<double>{position_[k].x() - position_[i].x(), position_[k].y() - position_[i].y()};
-  };
-  const double value = opening_of_slide(offset(j), offset(l), normal_[i], normal_[j], normal_[l]);
+  const double value = opening_of_slide(offset<double>(i, j), offset<double>(i, l), normal_[i], normal_[j], normal_[l]);
   // Two products of cross products (3 u of the spread from contact i, at most 2 spread, and 2 u of 2): 8 u of 8 spread.
   const double bound = 128 * unit_roundoff * spread_ + underflow_slack;
   return certain_sign(value, bound, [&] {
-    const auto exact_offset = [&](int k) { return rational(position_[k]) - rational(position_[i]); };
-    return opening_of_slide(exact_offset(j), exact_offset(l), rational(given_normal_[i]), rational(given_normal_[j]),
-                            rational(given_normal_[l]));
+    return opening_of_slide(offset<Rational>(i, j), offset<Rational>(i, l), normal<Rational>(i), normal<Rational>(j),
+                            normal<Rational>(l));
   });
 }
 
@@ -330,7 +322,7 @@ int Posture::opening_of_third(int i, int j, int l) const {
 void Posture::list_two_slides(int i, int j) {
   const int slide_i = turn_sign_[i][j];
   const int slide_j = -turn_sign_[j][i];
-  const bool same_line = slide_i == 0 && slide_j == 0 && cross(rational(given_normal_[i]), rational(given_normal_[j])) == 0;
+  const bool same_line = slide_i == 0 && slide_j == 0 && cross(normal<Rational>(i), normal<Rational>(j)) == 0;
   if (same_line) return;  // c = 0
   const int third = count_ == 3 ? opening_of_third(i, j, 3 - i - j) : 0;
   for (int sigma_i : {1, -1})

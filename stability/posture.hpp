@@ -55,7 +55,7 @@ class Posture {
  private:
   void find_facets();
   void add_facet_if_supporting(int a, int b);
-  int side(int a, int b, int c) const;  // sign of ray a x ray b . ray c
+  int exact_side(int a, int b, int c) const;
   bool parallel(int a, int b) const;
   bool is_new_plane(int a, int b, const std::array<int, 6>& sides) const;
   void list_modes();

@@ -6,7 +6,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "gaits/plan.hpp"
 #include "gaits/scene.hpp"
@@ -31,21 +30,6 @@ std::string to_yaml(const Plan& plan);  ///< the same tree, valid for readers of
 /// A self-contained drawing without scripts: terrain, feet, legs, COM path, R_SS(W) of each stance within reach. Long
 /// journeys are broken into rows like the lines of a page.
 std::string to_svg(const Scene& scene, const Plan& plan);
-
-/// What a limit means: ("UF", {0, 2}) -> "foot 1 slides along +t while foot 3 breaks away". `legs` (0..2) are the planted
-/// legs in increasing order, one per letter of a mode.
-std::string limit_in_words(const std::string& limit, const std::vector<int>& legs);
-
-/// Where the least safety factor of a plan is first met.
-struct WeakestPlace {
-  double sigma = 0;
-  bool in_transfer = false;
-  int index = -1;  ///< of the stance or transfer; -1 in a plan without stances
-  std::string limit;
-};
-WeakestPlace weakest_place(const Plan& plan);
-/// "the transfer of step 3", "the last stance".
-std::string place_in_words(const WeakestPlace& place, int steps);
 
 /// Reads JSON or YAML (JSON is YAML). Throws terrain::InputError with file:line:column. Positions are taken as written;
 /// whether they lie on the scene's terrain, and whether the steps make a gait, is for the verifier to say. Where a foothold

@@ -8,6 +8,7 @@
 
 #include "gaits/plan_io.hpp"
 #include "gaits/plan_page.hpp"
+#include "gaits/plan_words.hpp"
 #include "gaits/svg_canvas.hpp"
 #include "gaits/terrain_picture.hpp"
 #include "stability/robust_oracle.hpp"
@@ -30,18 +31,6 @@ constexpr double dot_radius = 3.2, badge_radius = 6.5;  // [px]
 constexpr double top = 116;                             // [px] title and legend
 
 Paint leg_paint(int leg) { return {.stroke = leg_colour[leg], .width = 1.2, .opacity = 0.6}; }
-
-std::string sigma_text(double sigma) {
-  if (std::isinf(sigma)) return "inf";
-  return sigma < 1 && sigma >= 0.9995 ? "<1" : fmt::format("{:.3g}", sigma);
-}
-
-std::vector<int> planted_legs(const Feet& feet) {
-  std::vector<int> legs;
-  for (int leg = 0; leg < leg_count; ++leg)
-    if (feet[leg]) legs.push_back(leg);
-  return legs;
-}
 
 /// Keeps labels apart: a place is free if no other has been taken within `distance` pixels.
 class Places {
@@ -75,7 +64,7 @@ class PlanPicture {
     switch (plan_.status) {
       case Status::solved:
         return fmt::format("{}: {} step{}, safety factor {}", plan_.scene, plan_.steps(), plan_.steps() == 1 ? "" : "s",
-                           sigma_text(plan_.safety_factor));
+                           factor_in_words(plan_.safety_factor));
       case Status::no_plan_found:
         return plan_.scene + ": no plan found";
       case Status::infeasible:
@@ -264,12 +253,12 @@ class PlanPicture {
   std::string tooltip(int k) const {
     const Stance& stance = plan_.stances[k];
     std::string words = fmt::format("stance {}: COM ({:g}, {:g}), safety factor {}", k + 1, stance.com.x(), stance.com.y(),
-                                    sigma_text(stance.safety_factor));
+                                    factor_in_words(stance.safety_factor));
     if (!stance.limit.empty())
       words += fmt::format(" ({}: {})", stance.limit, limit_in_words(stance.limit, planted_legs(stance.feet)));
     if (k < plan_.steps())
       words += fmt::format("; then leg {} is placed, leg {} lifted, safety factor {}", plan_.transfers[k].leg + 1,
-                           plan_.transfers[k].lift + 1, sigma_text(plan_.transfers[k].safety_factor));
+                           plan_.transfers[k].lift + 1, factor_in_words(plan_.transfers[k].safety_factor));
     return words;
   }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "gaits/plan_io.hpp"
+#include "gaits/plan_words.hpp"
 #include "gaits/text_table.hpp"
 
 namespace surefoot::gaits {
@@ -23,27 +24,10 @@ std::string printable(std::string text) {
   return text;
 }
 
-/// Three significant digits; never rounded up to the 1.00 that would mean stable.
-std::string factor(double sigma) {
-  if (std::isinf(sigma)) return "inf";
-  if (sigma < 1 && sigma >= 0.9995) return "<1.00";
-  if (sigma == 0) return "0";
-  if (sigma < 1e-3 || sigma >= 1e5) return fmt::format("{:.2e}", sigma);
-  const int before_point = std::max(1, static_cast<int>(std::floor(std::log10(sigma))) + 1);
-  return fmt::format("{:.{}f}", sigma, std::max(0, 3 - before_point));
-}
-
 std::string legs_text(const std::vector<int>& legs) {
   std::string text;
   for (const int leg : legs) text += fmt::format("{}{}", text.empty() ? "" : " ", leg + 1);
   return text.empty() ? "-" : text;
-}
-
-std::vector<int> planted_legs(const Feet& feet) {
-  std::vector<int> legs;
-  for (int leg = 0; leg < leg_count; ++leg)
-    if (feet[leg]) legs.push_back(leg);
-  return legs;
 }
 
 /// Millimetres for a robot of about a metre; in general at least a thousandth of its reach.
@@ -127,7 +111,7 @@ class Report {
   }
 
   TextTable::Cell sigma_cell(double sigma, bool in_transfer, int k) const {
-    return {factor(sigma), least_.index == k && least_.in_transfer == in_transfer ? yellow : nullptr};
+    return {factor_in_words(sigma), least_.index == k && least_.in_transfer == in_transfer ? yellow : nullptr};
   }
 
   std::vector<TextTable::Cell> step_row(int k, const Feet& last) const {
@@ -162,10 +146,10 @@ class Report {
         travelled += (plan_.stances[k].com - plan_.stances[k - 1].com).norm();
       text += fmt::format("{} step{}, COM travels {:.{}f} m, least safety factor {}", plan_.steps(),
                           plan_.steps() == 1 ? "" : "s", travelled, decimals_,
-                          paint(factor(plan_.safety_factor), bold, options_.colour));
+                          paint(factor_in_words(plan_.safety_factor), bold, options_.colour));
       text += where();
       if (plan_.safety_factor_before_refinement)
-        text += fmt::format(", {} before refinement", factor(*plan_.safety_factor_before_refinement));
+        text += fmt::format(", {} before refinement", factor_in_words(*plan_.safety_factor_before_refinement));
       text += "\n";
     }
     return text + fmt::format("planner {}, seed {}, {:.3f} s\n", or_dash(plan_.planner), plan_.seed, plan_.time_s);

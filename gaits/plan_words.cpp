@@ -1,9 +1,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
-#include "gaits/plan_io.hpp"
+#include "gaits/plan_words.hpp"
 
 namespace surefoot::gaits {
 namespace {
@@ -68,6 +69,23 @@ std::string limit_in_words(const std::string& limit, const std::vector<int>& leg
                         group.size() == 1 ? verb.singular : verb.plural);
   }
   return text;
+}
+
+std::string factor_in_words(double sigma) {
+  constexpr double rounds_to_one = 0.9995;  // from here on three digits would read 1.00
+  if (std::isinf(sigma)) return "inf";
+  if (sigma < 1 && sigma >= rounds_to_one) return "<1.00";
+  if (sigma == 0) return "0";
+  if (sigma < 1e-3 || sigma >= 1e5) return fmt::format("{:.2e}", sigma);
+  const int before_point = static_cast<int>(std::floor(std::log10(sigma))) + 1;
+  return fmt::format("{:.{}f}", sigma, std::max(0, 3 - before_point));
+}
+
+std::vector<int> planted_legs(const Feet& feet) {
+  std::vector<int> legs;
+  for (int leg = 0; leg < leg_count; ++leg)
+    if (feet[leg]) legs.push_back(leg);
+  return legs;
 }
 
 }  // namespace surefoot::gaits

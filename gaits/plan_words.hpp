@@ -1,0 +1,32 @@
+// Words and numbers for people about plans, shared by the table, the picture and whatever else explains a plan.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gaits/plan.hpp"
+
+namespace surefoot::gaits {
+
+/// What a limit means: ("UF", {0, 2}) -> "foot 1 slides along +t while foot 3 breaks away". `legs` (0..2) are the planted
+/// legs in increasing order, one per letter of a mode.
+std::string limit_in_words(const std::string& limit, const std::vector<int>& legs);
+
+/// Where the least safety factor of a plan is first met.
+struct WeakestPlace {
+  double sigma = 0;
+  bool in_transfer = false;
+  int index = -1;  ///< of the stance or transfer; -1 in a plan without stances
+  std::string limit;
+};
+WeakestPlace weakest_place(const Plan& plan);
+/// "the transfer of step 3", "the last stance".
+std::string place_in_words(const WeakestPlace& place, int steps);
+
+/// A safety factor to three significant digits; one below 1 never reads 1.00 ("<1.00"), infinity reads "inf".
+std::string factor_in_words(double sigma);
+
+/// Legs (0..2) that stand, in increasing order.
+std::vector<int> planted_legs(const Feet& feet);
+
+}  // namespace surefoot::gaits

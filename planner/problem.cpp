@@ -1,0 +1,224 @@
+#include "planner/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gaits/rules.hpp"
+#include "planner/com_window.hpp"
+
+namespace surefoot::planner {
+
+using Eigen::Vector2d;
+using gaits::Rule;
+
+namespace {
+
+constexpr int com_samples = 400;         ///< COMs tried per pair of start feet
+constexpr int goal_samples = 200;        ///< of these, drawn from the goal where the start feet reach it
+constexpr std::size_t keep_per_pair = 3; ///< first stances handed to the search per pair of start feet
+constexpr int first_step_tries = 64;     ///< codes tried to see whether a first step exists
+constexpr std::uint64_t goal_pairs = 30000;
+constexpr int coms_per_pair = 6;
+
+/// Coordinate i of the k-th point of the additive recurrence in five dimensions; the root of x^6 = x + 1 is its base.
+double spread(std::uint64_t k, int i) {
+  constexpr double root = 1.1347241384015194;
+  const double value = 0.5 + static_cast<double>(k + 1) * std::pow(root, -(i + 1));
+  return value - std::floor(value);
+}
+
+std::string legs_of(const gaits::Stance& stance) {
+  std::string text;
+  for (int leg = 0; leg < gaits::leg_count; ++leg)
+    if (stance.feet[leg]) text += (text.empty() ? "" : " and ") + std::to_string(leg + 1);
+  return text;
+}
+
+/// The rule that a first stance breaks, with the numbers.
+std::string explain(const gaits::Scene& scene, const gaits::Stance& stance, Rule rule) {
+  const gaits::Robot& robot = scene.robot;
+  for (int leg = 0; leg < gaits::leg_count; ++leg) {
+    if (!stance.feet[leg]) continue;
+    const double distance = (stance.com - stance.feet[leg]->position).norm();
+    if (rule == Rule::reach && !gaits::within_reach(robot, stance.feet[leg]->position, stance.com, stance.com))
+      return fmt::format("foot {} is {:.6g} m from the COM, reach is [{}, {}] m", leg + 1, distance, robot.reach_min,
+                         robot.reach_max);
+    if (rule == Rule::leg_visibility && !scene.terrain.leg_is_free(stance.com, *stance.feet[leg]))
+      return fmt::format("leg {} cuts the terrain on its way from the COM to its foot", leg + 1);
+  }
+  if (rule == Rule::clearance)
+    return fmt::format("the COM is {:.6g} m from the terrain, clearance is {} m",
+                       scene.terrain.distance(stance.com, 2 * robot.clearance + robot.reach_max), robot.clearance);
+  const auto sigma = gaits::safety_factor(scene, gaits::oracle_of(scene, stance.feet), stance.com);
+  return fmt::format("not stable on feet {}: safety factor {:.4g}, limited by {}; more than 1 is needed",
+                     legs_of(stance), sigma.value, sigma.critical.name());
+}
+
+Node node_of(const gaits::Scene& scene, const gaits::Stance& stance, StepProposals& proposals) {
+  Node node{scene.start.feet, 0, stance.com, proposals.next_id()};
+  while (stance.feet[node.free_leg]) ++node.free_leg;
+  return node;
+}
+
+bool has_first_step(StepProposals& proposals, const Node& node) {
+  Node next;
+  for (int k = 0; k < first_step_tries; ++k)
+    if (proposals.propose(node, spread_code(k), next)) return true;
+  return false;
+}
+
+/// First stances on two given feet with a COM of our choice: the safest few that a first step leads on from.
+void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& choice) {
+  const gaits::Scene& scene = proposals.scene();
+  const auto oracle = gaits::oracle_of(scene, stance.feet);
+  const Polygon window = reach_window(stance.feet, proposals.robot().reach_max);
+  const Polygon polygon = window.empty() ? window : oracle.equilibrium_polygon(window);
+  if (polygon.empty()) {
+    choice.fault += fmt::format("{}no COM within reach of feet {} balances every disturbance",
+                                choice.fault.empty() ? "" : "; ", legs_of(stance));
+    return;
+  }
+  const Polygon in_goal = clip_to_goal(polygon, scene.goal);
+  std::vector<std::pair<double, Node>> found;
+  for (int k = in_goal.empty() ? goal_samples : 0; k < goal_samples + com_samples; ++k) {
+    stance.com = point_in(k < goal_samples ? in_goal : polygon, spread(k, 0), spread(k, 1));
+    const auto& robot = proposals.robot();
+    if (!gaits::within_reach(robot, stance.feet, stance.com, stance.com)) continue;
+    if (!gaits::is_stable(scene, oracle, stance.com)) continue;
+    if (scene.terrain.distance(stance.com, robot.clearance) < robot.clearance) continue;
+    if (gaits::broken_start_rule(scene, stance)) continue;
+    const Node node = node_of(scene, stance, proposals);
+    if (scene.goal.contains(node.com)) {
+      choice.nodes.insert(choice.nodes.begin(), node);
+      return;
+    }
+    found.emplace_back(gaits::safety_factor(scene, oracle, stance.com).value, node);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < found.size() && kept < keep_per_pair; ++i) {
+    if (!has_first_step(proposals, found[i].second)) continue;
+    choice.nodes.push_back(found[i].second);
+    ++kept;
+  }
+  if (kept == 0 && !found.empty()) choice.nodes.push_back(found.front().second);
+  if (found.empty()) {
+    choice.decided = false;
+    choice.fault += fmt::format("{}no stable COM was found for feet {} in {} tries", choice.fault.empty() ? "" : "; ",
+                                legs_of(stance), com_samples);
+  }
+}
+
+}  // namespace
+
+StepCode spread_code(std::uint64_t k) {
+  StepCode code;
+  for (int i = 0; i < static_cast<int>(code.size()); ++i) code[i] = spread(k, i);
+  return code;
+}
+
+StartChoice choose_start(StepProposals& proposals) {
+  const gaits::Scene& scene = proposals.scene();
+  const gaits::Start& start = scene.start;
+  StartChoice choice;
+  choice.decided = true;
+  for (int lifted = gaits::leg_count - 1; lifted >= 0; --lifted) {
+    gaits::Stance stance{start.feet, start.com.value_or(Vector2d::Zero()), 0, {}};
+    stance.feet[lifted].reset();
+    const int a = lifted == 0 ? 1 : 0, b = lifted == 2 ? 1 : 2;
+    if (!stance.feet[a] || !stance.feet[b]) continue;
+    if (start.support && *start.support != std::pair(a, b)) continue;
+    if (!start.com) {
+      choose_coms(proposals, stance, choice);
+    } else if (const auto rule = gaits::broken_start_rule(scene, stance)) {
+      choice.fault += (choice.fault.empty() ? "" : "; ") + explain(scene, stance, *rule);
+    } else {
+      choice.nodes.push_back(node_of(scene, stance, proposals));
+    }
+  }
+  std::stable_partition(choice.nodes.begin(), choice.nodes.end(),
+                        [&](const Node& node) { return scene.goal.contains(node.com); });
+  if (!choice.nodes.empty()) choice.fault.clear();
+  return choice;
+}
+
+std::optional<std::string> start_fault(const gaits::Scene& scene) {
+  StepProposals proposals(scene);
+  const StartChoice choice = choose_start(proposals);
+  if (choice.fault.empty() || !choice.decided) return std::nullopt;
+  return choice.fault;
+}
+
+namespace {
+
+/// Segments that a COM in the goal may reach, with the running sum of their lengths.
+struct NearGoal {
+  std::vector<const terrain::Segment*> segments;
+  std::vector<double> sums;  ///< [m]
+};
+
+NearGoal near_goal(const gaits::Scene& scene) {
+  const auto meets = [&](const std::optional<std::pair<double, double>>& interval, double a, double b) {
+    return !interval || (std::max(a, b) >= interval->first - scene.robot.reach_max &&
+                         std::min(a, b) <= interval->second + scene.robot.reach_max);
+  };
+  NearGoal near;
+  double sum = 0;
+  for (const terrain::Segment& segment : scene.terrain.segments()) {
+    if (!segment.surface.foothold || !meets(scene.goal.com_x, segment.a.x(), segment.b.x()) ||
+        !meets(scene.goal.com_y, segment.a.y(), segment.b.y()))
+      continue;
+    near.segments.push_back(&segment);
+    near.sums.push_back(sum += segment.length);
+  }
+  return near;
+}
+
+std::optional<terrain::Foothold> pick(const gaits::Scene& scene, const NearGoal& near, double u) {
+  const double at = u * near.sums.back();
+  const auto i = std::min(static_cast<std::size_t>(std::lower_bound(near.sums.begin(), near.sums.end(), at) -
+                                                   near.sums.begin()),
+                          near.sums.size() - 1);
+  const terrain::Segment& segment = *near.segments[i];
+  return scene.terrain.foothold_at(segment.chain, segment.s_begin + segment.length - (near.sums[i] - at));
+}
+
+bool stands_in_goal(const gaits::Scene& scene, const gaits::Robot& robot, gaits::Stance& stance, std::uint64_t k) {
+  const Polygon window = reach_window(stance.feet, robot.reach_max);
+  if (window.empty()) return false;
+  const Polygon in_goal = clip_to_goal(window, scene.goal);
+  if (in_goal.empty()) return false;
+  const auto oracle = gaits::oracle_of(scene, stance.feet);
+  const Polygon balanced = oracle.equilibrium_polygon(window);
+  const Polygon polygon = balanced.empty() ? balanced : clip_to_goal(balanced, scene.goal);
+  if (polygon.empty()) return false;
+  for (int j = 0; j < coms_per_pair; ++j) {
+    stance.com = point_in(polygon, spread(k * coms_per_pair + j, 2), spread(k * coms_per_pair + j, 3));
+    if (scene.goal.contains(stance.com) && !gaits::broken_stance_rule(scene, stance, oracle)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+GoalLook look_at_goal(const gaits::Scene& scene) {
+  const NearGoal near = near_goal(scene);
+  if (near.segments.empty()) return {false, true, "no terrain to stand on within reach of the goal"};
+  const gaits::Robot robot = gaits::drawn_in(scene.robot);
+  for (std::uint64_t k = 0; k < goal_pairs; ++k) {
+    const auto first = pick(scene, near, spread(k, 0)), second = pick(scene, near, spread(k, 1));
+    if (!first || !second) continue;
+    if ((first->position - second->position).norm() > 2 * robot.reach_max) continue;
+    gaits::Stance stance;
+    stance.feet[0] = first;
+    stance.feet[1] = second;
+    if (stands_in_goal(scene, robot, stance, k)) return {true, false, {}};
+  }
+  return {false, false,
+          fmt::format("among {} pairs of footholds near it, spread evenly, none carries a stable stance with the COM "
+                      "in the goal", goal_pairs)};
+}
+
+}  // namespace surefoot::planner

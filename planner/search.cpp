@@ -1,0 +1,143 @@
+#include "planner/search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "gaits/rules.hpp"
+#include "planner/ompl_search.hpp"
+#include "planner/problem.hpp"
+#include "planner/shorten.hpp"
+
+namespace surefoot::planner {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+/// One turn of a planner in the search.
+struct Turn {
+  const char* planner;
+  double goal_bias;
+  std::uint64_t iterations;
+};
+
+/// Turns of `auto`: RRT finds nearly everything in its first turn (measured on the canned scenes); a tree that
+/// went wrong is dropped soon and grown anew, longer each time, with the others in between.
+constexpr Turn auto_turns[] = {{"RRT", 0.7, 1000}, {"RRT", 0.3, 2000},     {"EST", 0.3, 2000},
+                               {"RRT", 0.5, 4000}, {"KPIECE1", 0.3, 4000}, {"RRT", 0.3, 8000}};
+
+std::vector<Turn> turns_of(const std::string& planner) {
+  if (planner == "auto") return {std::begin(auto_turns), std::end(auto_turns)};
+  for (const std::string& name : planner_names()) {
+    if (name != planner) continue;
+    const double bias = planner == "RRT" ? 0.7 : 0.3;
+    return {{name.c_str(), bias, 5000}, {name.c_str(), 0.3, 15000}};
+  }
+  throw std::invalid_argument("unknown planner '" + planner + "'");
+}
+
+/// Iterations are meant for a journey of ten times the reach; a longer one takes more.
+double length_factor(const gaits::Scene& scene) {
+  const Eigen::Vector2d size = scene.terrain.bounds().sizes();
+  return std::max(1.0, size.norm() / (10 * scene.robot.reach_max));
+}
+
+/// Seeds of the turns: the scene's own first, then far from each other, within the range of OMPL's generator.
+std::uint32_t turn_seed(std::uint32_t seed, std::size_t turn) {
+  constexpr std::uint64_t range = 2147483562, golden = 1327217884;  // 2^31 divided by the golden ratio
+  return static_cast<std::uint32_t>((seed + range - 1 + turn * golden) % range) + 1;
+}
+
+void note_left_out(const gaits::Scene& scene, const ProposalCounts& counts, gaits::Plan& plan) {
+  if (counts.swings_skipped > 0)
+    plan.left_out.push_back({fmt::format("swing test for {} of {} landings", counts.swings_skipped, counts.swings_asked),
+                             "no terrain within the least reach of the COM: the shortened leg turns any way"});
+  if (scene.criterion == gaits::Criterion::equilibrium)
+    plan.left_out.push_back({"non-static contact modes", "criterion equilibrium: the robot braces actively"});
+  if (!scene.restitution) plan.left_out.push_back({"frictional stability", "no restitution is given"});
+}
+
+class Search {
+ public:
+  Search(const gaits::Scene& scene, const SearchOptions& options)
+      : scene_(scene), options_(options), turns_(turns_of(options.planner)), begin_(Clock::now()), proposals_(scene) {
+    const std::chrono::duration<double> limit(std::clamp(options.time_limit, 0.0, 1e9));
+    deadline_ = begin_ + std::chrono::duration_cast<Clock::duration>(limit);
+    plan_.scene = scene.name;
+    plan_.seed = options.seed;
+    plan_.planner = options.planner;
+  }
+
+  gaits::Plan run() {
+    std::vector<Node> path = find();
+    if (!path.empty()) {
+      path = shorten(proposals_, std::move(path), options_.objective);
+      plan_.status = gaits::Status::solved;
+      write_path(path, plan_);
+      gaits::rate(scene_, plan_);
+    }
+    note_left_out(scene_, proposals_.counts(), plan_);
+    plan_.time_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    return std::move(plan_);
+  }
+
+ private:
+  std::vector<Node> find() {
+    const StartChoice start = choose_start(proposals_);
+    if (start.nodes.empty()) {
+      if (start.decided) throw terrain::InputError(fmt::format("{}: start: {}", scene_.file, start.fault));
+      plan_.reason = "start is not stable: " + start.fault;
+      return {};
+    }
+    if (scene_.goal.contains(start.nodes.front().com)) return {start.nodes.front()};
+    if (const GoalLook look = look_at_goal(scene_); !look.standable) {
+      if (look.decided) plan_.status = gaits::Status::infeasible;
+      plan_.reason = "goal cannot be stood on: " + look.fault;
+      return {};
+    }
+    return take_turns(start.nodes);
+  }
+
+  std::vector<Node> take_turns(const std::vector<Node>& starts) {
+    const double factor = length_factor(scene_);
+    std::uint64_t iterations = 0;
+    for (std::size_t k = 0; k < turns_.size() && Clock::now() < deadline_; ++k) {
+      OmplRun run;
+      run.planner = turns_[k].planner;
+      run.seed = turn_seed(options_.seed, k);
+      run.iterations = static_cast<std::uint64_t>(factor * static_cast<double>(turns_[k].iterations));
+      run.goal_bias = turns_[k].goal_bias;
+      run.objective = options_.objective;
+      run.deadline = deadline_;
+      std::vector<Node> path = run_ompl(proposals_, starts, run, iterations);
+      if (path.empty()) continue;
+      plan_.planner = run.planner;
+      return path;
+    }
+    plan_.reason = fmt::format("no plan found {} ({} iterations of {}; {})",
+                               Clock::now() < deadline_ ? "within the iteration budget" : "within the time limit",
+                               iterations, options_.planner, summary(proposals_.counts()));
+    return {};
+  }
+
+  const gaits::Scene& scene_;
+  const SearchOptions& options_;
+  std::vector<Turn> turns_;
+  Clock::time_point begin_, deadline_;
+  StepProposals proposals_;
+  gaits::Plan plan_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& planner_names() {
+  static const std::vector<std::string> names{"auto", "RRT", "KPIECE1", "EST", "SST"};
+  return names;
+}
+
+gaits::Plan search(const gaits::Scene& scene, const SearchOptions& options) { return Search(scene, options).run(); }
+
+}  // namespace surefoot::planner

@@ -72,7 +72,8 @@ class PathCost : public ob::OptimizationObjective {
   bool distance_;
 };
 
-ob::PlannerPtr make_planner(const oc::SpaceInformationPtr& si, const OmplRun& run, double reach) {
+ob::PlannerPtr make_planner(const oc::SpaceInformationPtr& si, const ob::ProblemDefinitionPtr& problem,
+                            const OmplRun& run, double reach) {
   if (run.planner == "KPIECE1") {
     auto planner = std::make_shared<oc::KPIECE1>(si);
     planner->setGoalBias(run.goal_bias);
@@ -89,6 +90,7 @@ ob::PlannerPtr make_planner(const oc::SpaceInformationPtr& si, const OmplRun& ru
     planner->setGoalBias(run.goal_bias);
     planner->setSelectionRadius(reach / 4);
     planner->setPruningRadius(reach / 20);
+    planner->setProblemDefinition(problem);  // before the next line, which sets up and asks for the objective
     planner->setNearestNeighbors<ompl::NearestNeighborsLinear>();
     return planner;
   }
@@ -142,7 +144,7 @@ std::vector<Node> run_ompl(StepProposals& proposals, const std::vector<Node>& st
   }
   problem->setGoal(std::make_shared<ComGoal>(si, proposals.scene()));
   problem->setOptimizationObjective(std::make_shared<PathCost>(si, run.objective == "distance"));
-  const auto planner = make_planner(si, run, reach);
+  const auto planner = make_planner(si, problem, run, reach);
   planner->setProblemDefinition(problem);
   planner->setup();
 

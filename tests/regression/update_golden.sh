@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Plans the canned scenes anew, shows how the plans differ from the stored ones, and stores them.
+# Plans the canned scenes anew, shows how the plans differ from the stored ones, and stores them; with stairs_up also
+# what the README shows of it.
 # Usage: tests/regression/update_golden.sh [-n] [NAME...]     -n only shows; NAME is a scene of maps/, default all
 set -euo pipefail
 
@@ -32,3 +33,18 @@ for name in "${names[@]}"; do
     echo "$name: stored"
   fi
 done
+
+if $store && [[ " ${names[*]} " == *" stairs_up "* ]]; then
+  cd -- "$root"
+  ./surefoot plan maps/stairs_up.yaml --svg docs/stairs_up.svg >"$fresh/text"
+  awk -v text="$fresh/text" '
+    /^<!-- end -->/ { inside = 0 }
+    !inside
+    /^<!-- begin: output of / {
+      inside = 1
+      print "```"
+      while ((getline line < text) > 0) print line
+      print "```"
+    }' README.md >"$fresh/README.md"
+  cat -- "$fresh/README.md" >README.md
+fi

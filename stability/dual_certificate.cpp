@@ -4,19 +4,11 @@
 #include <cmath>
 #include <type_traits>
 
+#include "stability/cover_conditions.hpp"
 #include "stability/guard.hpp"
 
 namespace surefoot::stability {
 using Kind = ModeSpec::Kind;
-
-/// Extreme twists of K about contact spec.i, as (velocity of that point, alpha).
-template <class K>
-struct TwistCone {
-  std::array<Row<K>, 3> extreme;
-  int count = 0;
-  bool free_rotation = false;  // K contains both rotations about x_i: Z must have no moment about it
-  void add(const Row<K>& twist) { extreme[count++] = twist; }
-};
 
 namespace {
 
@@ -55,7 +47,7 @@ TwistCone<K> slide_cone(const Posture& posture, const ModeSpec& spec) {
 template <class K>
 TwistCone<K> twist_cone(const Posture& posture, const ModeSpec& spec) {
   if (spec.kind == Kind::slide) return slide_cone<K>(posture, spec);
-  TwistCone<K> cone;
+  TwistCone<K> cone{};
   cone.free_rotation = spec.sense == 0;  // a roll that opens nothing; two slides at one point
   if (spec.kind == Kind::roll && spec.sense != 0) cone.add({K(0), K(0), K(spec.sense)});
   if (spec.kind == Kind::two_slides && spec.sense != 0) {
@@ -174,26 +166,24 @@ Covector propose_force(const Frame<double>& frame, const ModeSpec& spec, const T
 }  // namespace
 
 DualCertificate::DualCertificate(const Posture& posture, const ModeSpec& spec, const DisturbanceBox& box)
-    : posture_(posture), spec_(spec), box_(box) {}
+    : posture_(posture), spec_(spec), box_(box), cone_(twist_cone<double>(posture, spec)) {}
 
 Covector DualCertificate::propose(const Frame<double>& frame) const {
   if (spec_.kind == Kind::all_break) return propose_breaks(frame, box_);
-  const TwistCone<double> cone = twist_cone<double>(posture_, spec_);
-  if (cone.free_rotation) return propose_force(frame, spec_, cone, box_);
-  if (box_.kappa > 0 && box_.nu > 0) return propose_widened(frame, cone, 0);
+  if (cone_.free_rotation) return propose_force(frame, spec_, cone_, box_);
+  if (box_.kappa > 0 && box_.nu > 0) return propose_widened(frame, 0);
   for (const double widening : {1e-3, 1e-6, 1e-9})
-    if (const Covector covector = propose_widened(frame, cone, widening); covector.found) return covector;
+    if (const Covector covector = propose_widened(frame, widening); covector.found) return covector;
   return {};
 }
 
-Covector DualCertificate::propose_widened(const Frame<double>& frame, const TwistCone<double>& cone,
-                                          double widening) const {
+Covector DualCertificate::propose_widened(const Frame<double>& frame, double widening) const {
   const double rho = std::sqrt(frame.rho2);
   const Vec2<double>& r = frame.at[spec_.i].r;
   RayPolygon polygon = positive_on_box(rho, box_, widening);
   // In the COM frame: Z . e = Z . (v + alpha (r_y, -r_x)) + Z_z alpha.
-  for (int k = 0; k < cone.count; ++k) {
-    const Row<double>& e = cone.extreme[k];
+  for (int k = 0; k < cone_.count; ++k) {
+    const Row<double>& e = cone_.extreme[k];
     polygon.clip({e.p + e.q * r.y, e.one - e.q * r.x, e.q * rho});
   }
   const Edges edges(spec_);
@@ -222,34 +212,10 @@ Row<K> covector_about_contact(const Posture& posture, const ModeSpec& spec, cons
   return sum;
 }
 
-/// nu |moment| < rho^2 (Z_y - kappa |Z_x|) on the whole interval: Bernstein coefficients of degree 2; the right side is concave
-/// in Z, hence at least its linear interpolation.
-template <class K>
-bool positive_on_corners(const Row<K>& za, const Row<K>& zb, const std::array<K, 3>& moment, const K& rho2,
-                         const DisturbanceBox& box, const K& slack) {
-  const auto absolute = [](const K& k) -> K { return k < 0 ? K(-k) : k; };
-  const auto rest = [&](const Row<K>& z) -> K { return rho2 * (z.one - K(box.kappa) * absolute(z.p)); };
-  const K ra = rest(za), rb = rest(zb), nu(box.nu), two(2);
-  return nu * absolute(moment[0]) + slack < ra && nu * two * absolute(moment[1]) + two * slack < ra + rb &&
-         nu * absolute(moment[2]) + slack < rb;
-}
-
-/// rho^2 Z . C + moment s_z < 0 on the whole interval: Bernstein coefficients of degree 3, times 3.
-template <class K>
-bool negative_on_edge(const Row<K>& za, const Row<K>& zb, const std::array<K, 3>& moment, const Vec2<K>& c, const K& sa,
-                      const K& sb, const K& rho2, const K& slack) {
-  const K la = rho2 * (za.p * c.x + za.one * c.y), lb = rho2 * (zb.p * c.x + zb.one * c.y);
-  const K two(2), three(3);
-  return la + moment[0] * sa + slack < 0 && lb + moment[2] * sb + slack < 0 &&
-         two * la + lb + moment[0] * sb + two * moment[1] * sa + three * slack < 0 &&
-         la + two * lb + two * moment[1] * sb + moment[2] * sa + three * slack < 0;
-}
-
 /// Conditions (*) between the COMs of two frames.
 template <class K>
 bool holds_between(const ModeSpec& spec, const DisturbanceBox& box, const Row<K>& za, const Frame<K>& fa, const Row<K>& zb,
                    const Frame<K>& fb, const K& corner_slack, const K& edge_slack) {
-  const auto moment_about_com = [](const Row<K>& z, const Vec2<K>& r) -> K { return z.q + r.x * z.one - r.y * z.p; };
   const Vec2<K>&ra = fa.at[spec.i].r, &rb = fb.at[spec.i].r;
   const K half(0.5);
   const std::array<K, 3> moment{moment_about_com(za, ra),
@@ -268,10 +234,9 @@ bool holds_between(const ModeSpec& spec, const DisturbanceBox& box, const Row<K>
 
 /// Z not negative on K. `error` bounds the rounding error of Z . e for doubles.
 template <class K>
-bool DualCertificate::in_cone(const Covector& covector, double error) const {
+bool DualCertificate::in_cone(const Covector& covector, const TwistCone<K>& cone, double error) const {
   const Row<double>& z = covector.z;
   if (spec_.kind == Kind::all_break) return z.p >= 0 && z.one >= 0 && z.q >= 0 && z.p + z.one + z.q > 0;
-  const TwistCone<K> cone = twist_cone<K>(posture_, spec_);
   if (cone.free_rotation && z.q != 0) return false;
   const Row<K> exact{K(z.p), K(z.one), K(z.q)};
   const K least(std::is_same_v<K, double> ? error : 0);
@@ -290,7 +255,7 @@ bool DualCertificate::proves(const Covector& a, const Frame<double>& frame_a, co
   const double moment = about_contact + radius * force;
   const double factor = row_error_factor * posture_.edge_bound();
   const double twist_error = row_error_factor * about_contact + underflow_slack;
-  if (!in_cone<double>(a, twist_error) || (&a != &b && !in_cone<double>(b, twist_error))) return false;
+  if (!in_cone<double>(a, cone_, twist_error) || (&a != &b && !in_cone<double>(b, cone_, twist_error))) return false;
   const double area = factor * posture_.rho2() * force;
   return holds_between<double>(spec_, box_, za, frame_a, zb, frame_b,
                                area * (1 + box_.kappa) + factor * box_.nu * moment + underflow_slack,
@@ -299,7 +264,8 @@ bool DualCertificate::proves(const Covector& a, const Frame<double>& frame_a, co
 
 bool DualCertificate::proves(const Covector& a, const Frame<Rational>& frame_a, const Covector& b,
                              const Frame<Rational>& frame_b) const {
-  if (!in_cone<Rational>(a, 0) || !in_cone<Rational>(b, 0)) return false;
+  const TwistCone<Rational> cone = twist_cone<Rational>(posture_, spec_);
+  if (!in_cone<Rational>(a, cone, 0) || !in_cone<Rational>(b, cone, 0)) return false;
   const Rational none(0);
   return holds_between<Rational>(spec_, box_, covector_about_contact<Rational>(posture_, spec_, a), frame_a,
                                  covector_about_contact<Rational>(posture_, spec_, b), frame_b, none, none);

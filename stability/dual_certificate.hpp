@@ -25,8 +25,14 @@ struct Covector {
   bool found = false;
 };
 
+/// Extreme twists of K about contact spec.i, as (velocity of that point, alpha).
 template <class K>
-struct TwistCone;
+struct TwistCone {
+  std::array<Row<K>, 3> extreme;
+  int count = 0;
+  bool free_rotation = false;  // K contains both rotations about x_i: Z must have no moment about it
+  void add(const Row<K>& twist) { extreme[count++] = twist; }
+};
 
 /// Certificates for one mode of one posture and one box.
 class DualCertificate {
@@ -43,13 +49,14 @@ class DualCertificate {
               const Frame<Rational>& frame_b) const;
 
  private:
-  Covector propose_widened(const Frame<double>& frame, const TwistCone<double>& cone, double widening) const;
+  Covector propose_widened(const Frame<double>& frame, double widening) const;
   template <class K>
-  bool in_cone(const Covector& covector, double error) const;
+  bool in_cone(const Covector& covector, const TwistCone<K>& cone, double error) const;
 
   const Posture& posture_;
   const ModeSpec& spec_;
   DisturbanceBox box_;
+  TwistCone<double> cone_;
 };
 
 }  // namespace surefoot::stability

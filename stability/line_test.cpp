@@ -5,33 +5,42 @@
 #include <optional>
 
 #include "stability/point_test.hpp"
+#include "stability/screen.hpp"
 
 namespace surefoot::stability {
 namespace {
+
+using Eigen::Vector2d;
 
 /// Proofs on [a, b] fail on intervals shorter than this only where the mode is feasible or tangential nearby.
 constexpr double least_interval = 0x1p-40;
 /// More intervals than this are not tried: a line of ordinary length needs one or two, lines of 1000 rho some tens.
 constexpr int max_intervals = 4096;
 
-/// Proves intervals from `lambda` on, each twice as long as the last where that works, half as long where not.
-/// make_frame(lambda) gives the frame in doubles, proves(a, b, ...) the decision. Returns the lambda reached.
-template <class MakeFrame, class Proves>
-double proved_up_to(const DualCertificate& certificate, double lambda, MakeFrame&& make_frame, Proves&& proves) {
-  Covector here = certificate.propose(make_frame(lambda));
+/// A point of the line with the covector proposed there.
+struct Station {
+  double lambda;
+  Frame<double> frame;
+  Covector covector;
+};
+
+/// Proves intervals from `lambda` on, each twice as long as the last where that works, half as long where not; proves(a, b)
+/// decides between two stations. Returns the lambda reached.
+template <class MakeStation, class Proves>
+double proved_up_to(double lambda, MakeStation&& make_station, Proves&& proves) {
+  Station here = make_station(lambda);
   double length = 1 - lambda;
-  for (int k = 0; k < max_intervals && here.found && lambda < 1 && length >= least_interval; ++k) {
-    const double end = length < 1 - lambda ? lambda + length : 1;
-    const Covector there = certificate.propose(make_frame(end));
-    if (there.found && proves(here, lambda, there, end)) {
-      lambda = end;
+  for (int k = 0; k < max_intervals && here.covector.found && here.lambda < 1 && length >= least_interval; ++k) {
+    const double end = length < 1 - here.lambda ? here.lambda + length : 1;
+    Station there = make_station(end);
+    if (there.covector.found && proves(here, there)) {
       here = there;
       length *= 2;
     } else {
-      length = 0.5 * (end - lambda);
+      length = 0.5 * (end - here.lambda);
     }
   }
-  return lambda;
+  return here.lambda;
 }
 
 /// Proofs stop just before a violation: the first of some points beyond `lambda`, ever farther, for which `test` holds.
@@ -55,11 +64,54 @@ LineQuery::LineQuery(const Posture& posture, const Eigen::Vector2d& from, const 
   radius_ += (to - from).lpNorm<1>();
 }
 
+namespace {
+
+/// Screens an interval as a whole, then its halves for the modes that are left.
+class RecursiveScreen {
+ public:
+  RecursiveScreen(const Posture& posture, const Vector2d& from, const Vector2d& to, double radius,
+                  const DisturbanceBox& box)
+      : posture_(posture), from_(from), to_(to), radius_(radius), box_(box),
+        guard_(posture.edge_bound(), posture.rho2(), radius, box) {}
+
+  std::uint32_t excluded(double a, const Frame<double>& at_a, double b, const Frame<double>& at_b, std::uint32_t wanted,
+                         int halvings) const {
+    const std::uint32_t whole = screened_modes(posture_, at_a, at_b, radius_, box_, guard_, wanted);
+    const std::uint32_t left = wanted & ~whole;
+    if (left == 0 || halvings == 0) return whole;
+    const double middle = 0.5 * (a + b);
+    const Frame<double> at_middle = frame(middle);
+    const std::uint32_t first = excluded(a, at_a, middle, at_middle, left, halvings - 1);
+    if (first == 0) return whole;
+    return whole | excluded(middle, at_middle, b, at_b, first, halvings - 1);
+  }
+  Frame<double> frame(double lambda) const { return posture_.frame(from_, to_, lambda); }
+
+ private:
+  const Posture& posture_;
+  const Vector2d &from_, &to_;
+  double radius_;
+  const DisturbanceBox& box_;
+  Guard guard_;
+};
+
+}  // namespace
+
+std::uint32_t LineQuery::screened() const {
+  constexpr int halvings = 6;
+  const RecursiveScreen screen(posture_, from_, to_, radius_, box_);
+  const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << posture_.modes().size()) - 1);
+  return screen.excluded(0, screen.frame(0), 1, screen.frame(1), all, halvings);
+}
+
 double LineQuery::excluded_up_to(const ModeSpec& spec, double s, double lambda) const {
   const DualCertificate certificate(posture_, spec, {s * box_.kappa, s * box_.nu});
-  const auto frame = [&](double at) { return posture_.frame(from_, to_, at); };
-  return proved_up_to(certificate, lambda, frame, [&](const Covector& a, double la, const Covector& b, double lb) {
-    return certificate.proves(a, frame(la), b, frame(lb), radius_);
+  const auto station = [&](double at) {
+    const Frame<double> frame = posture_.frame(from_, to_, at);
+    return Station{at, frame, certificate.propose(frame)};
+  };
+  return proved_up_to(lambda, station, [&](const Station& a, const Station& b) {
+    return certificate.proves(a.covector, a.frame, b.covector, b.frame, radius_);
   });
 }
 
@@ -90,12 +142,14 @@ LineMode LineQuery::feasible_exactly(const ModeSpec& spec) const {
   for (const double end : {0.0, 1.0})
     if (feasible_here(end)) return {LineOutcome::feasible, end};
   const DualCertificate certificate(posture_, spec, box_);
-  const auto frame = [&](double at) { return posture_.frame(from_, to_, at); };
-  const auto exact_frame = [&](double at) { return posture_.exact_frame(from_, to_, at); };
-  const double reached =
-      proved_up_to(certificate, 0, frame, [&](const Covector& a, double la, const Covector& b, double lb) {
-        return certificate.proves(a, exact_frame(la), b, exact_frame(lb));
-      });
+  const auto station = [&](double at) {
+    const Frame<double> frame = posture_.frame(from_, to_, at);
+    return Station{at, frame, certificate.propose(frame)};
+  };
+  const double reached = proved_up_to(0, station, [&](const Station& a, const Station& b) {
+    return certificate.proves(a.covector, posture_.exact_frame(from_, to_, a.lambda), b.covector,
+                              posture_.exact_frame(from_, to_, b.lambda));
+  });
   if (reached >= 1) return {LineOutcome::excluded, 0};
   if (const auto found = probe_beyond(reached, feasible_here)) return {LineOutcome::feasible, *found};
   return {LineOutcome::uncertain, reached};

@@ -2,6 +2,8 @@
 // Intervals of lambda are proved one after the other with dual certificates (dual_certificate.hpp), found at their ends.
 #pragma once
 
+#include <cstdint>
+
 #include "stability/dual_certificate.hpp"
 #include "stability/guard.hpp"
 #include "stability/posture.hpp"
@@ -23,6 +25,8 @@ class LineQuery {
  public:
   LineQuery(const Posture& posture, const Eigen::Vector2d& from, const Eigen::Vector2d& to, const DisturbanceBox& box);
 
+  /// Modes that shared certificates exclude on the whole line (screen.hpp).
+  std::uint32_t screened() const;
   /// Decided for the doubles given: doubles with error bounds first, rationals where these cannot tell.
   LineMode feasible(const ModeSpec& spec) const;
   /// Up to which lambda, from `lambda` on, the mode is proved infeasible for the box scaled by s. Doubles only.

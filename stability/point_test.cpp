@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "stability/screen.hpp"
+
 namespace surefoot::stability {
 namespace {
 
@@ -34,8 +36,12 @@ bool meets_box_exactly(const RowSink<Rational>& sink, const DisturbanceBox& box)
 }
 
 PointQuery::PointQuery(const Posture& posture, const Eigen::Vector2d& com, const DisturbanceBox& box)
-    : posture_(posture), com_(com), box_(box), frame_(posture.frame(com)),
-      guard_(posture.edge_bound(), posture.rho2(), greatest_offset(frame_), box) {}
+    : posture_(posture), com_(com), box_(box), frame_(posture.frame(com)), radius_(greatest_offset(frame_)),
+      guard_(posture.edge_bound(), posture.rho2(), radius_, box) {}
+
+std::uint32_t PointQuery::screened() const {
+  return screened_modes(posture_, frame_, frame_, radius_, box_, guard_);
+}
 
 const Frame<Rational>& PointQuery::exact_frame() {
   if (!exact_) exact_ = posture_.exact_frame(com_);

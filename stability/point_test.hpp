@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "stability/box_test.hpp"
@@ -19,6 +20,8 @@ class PointQuery {
   /// z . g > 0 at every corner of W for every facet (theory section 3).
   bool equilibrium();
   bool feasible(const ModeSpec& spec);
+  /// Modes that shared certificates exclude (screen.hpp).
+  std::uint32_t screened() const;
   const Frame<double>& frame() const { return frame_; }
   const Guard& guard() const { return guard_; }
 
@@ -31,6 +34,7 @@ class PointQuery {
   Eigen::Vector2d com_;
   DisturbanceBox box_;
   Frame<double> frame_;
+  double radius_;
   Guard guard_;
   std::optional<Frame<Rational>> exact_;
 };

@@ -101,8 +101,12 @@ bool RobustOracle::equilibrium(const Vector2d& com) const { return PointQuery(po
 bool RobustOracle::robust(const Vector2d& com) const {
   PointQuery query(posture_, com, box_);
   if (!query.equilibrium()) return false;
-  const auto modes = posture_.modes();
-  return std::none_of(modes.begin(), modes.end(), [&](const ModeSpec& spec) { return query.feasible(spec); });
+  std::uint32_t excluded = query.screened();
+  for (const ModeSpec& spec : posture_.modes()) {
+    if (!(excluded & 1) && query.feasible(spec)) return false;
+    excluded >>= 1;
+  }
+  return true;
 }
 
 std::vector<ContactMode> RobustOracle::feasible_modes(const Vector2d& com) const {
@@ -144,9 +148,13 @@ LineVerdict RobustOracle::line(const Vector2d& from, const Vector2d& to) const {
   using Outcome = LineVerdict::Outcome;
   if (!equilibrium(from)) return {Outcome::unstable, 0, critical_equilibrium()};
   if (!equilibrium(to)) return {Outcome::unstable, 1, critical_equilibrium()};
-  LineQuery query(posture_, from, to, box_);
+  const LineQuery query(posture_, from, to, box_);
+  std::uint32_t excluded = query.screened();
   LineVerdict verdict{Outcome::stable, 0, {}};
   for (const ModeSpec& spec : posture_.modes()) {
+    const bool screened = excluded & 1;
+    excluded >>= 1;
+    if (screened) continue;
     const LineMode mode = query.feasible(spec);
     if (mode.outcome == LineOutcome::excluded) continue;
     const bool feasible = mode.outcome == LineOutcome::feasible;
@@ -187,7 +195,7 @@ class LineMinimum {
   /// Lowers `best` to the mode's least scale on the line, if that is lower. Where certificates at the level of the bound
   /// stop, the scale is evaluated: lower than the bound, it is followed downhill to a local minimum, which becomes the bound.
   void lower(const ModeSpec& spec, double& best, double& best_lambda) const {
-    constexpr double level = 1 - 1e-9;     // certificates are strict: confirm slightly below the bound
+    constexpr double level = 1 - 1e-7;     // certificates are strict: confirm slightly below the bound
     constexpr double least_step = 1e-9;    // in lambda, where doubles can neither certify nor find a lower value
     constexpr int max_rounds = 1000;
     consider(spec, 0, best, best_lambda);

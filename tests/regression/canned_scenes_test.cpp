@@ -4,7 +4,8 @@
 // What is compared. Two runs on one machine must agree in every byte but time_s. A stored plan may come from another
 // compiler, C library or processor, whose last bits differ, so it is compared by what a robot would do: the same legs
 // on the same segments in the same order, lengths within `length_tolerance`, safety factors within
-// `factor_tolerance`.
+// `factor_tolerance`. Refinement can make more of a last bit where many plans are equally safe (ice_patch): a new
+// compiler, or new arithmetic in the oracle, may call for an update that moves feet by centimetres.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -23,7 +24,7 @@ using surefoot::test::run_program;
 
 namespace {
 
-// Far above what differing last bits grow to along a plan, far below what a foot could tell.
+// Far above a last bit, far below what a foot could tell.
 constexpr double length_tolerance = 1e-6;  // [m]
 constexpr double factor_tolerance = 1e-6;  // relative
 

@@ -11,18 +11,18 @@
 namespace surefoot::planner {
 
 enum ExitStatus : int {
-  exit_success = 0,      ///< solved; the plan holds; all lines were read
-  exit_failure = 1,      ///< no plan within the limit; the plan does not hold
-  exit_bad_input = 2,    ///< bad input or usage, or output that cannot be written
-  exit_infeasible = 3,   ///< proven that there is no plan
+  exit_success = 0,     ///< solved; the plan holds; all lines were read
+  exit_failure = 1,     ///< no plan within the limit; the plan does not hold
+  exit_bad_input = 2,   ///< bad input or usage, or output that cannot be written
+  exit_infeasible = 3,  ///< proven that there is no plan
 };
 
 struct PlanArguments {
   std::string scene;
-  std::optional<std::string> output, svg;        ///< files; "-" is stdout
-  std::optional<std::string> format;             ///< text, json, yaml; otherwise by the name of the output
-  std::optional<std::int64_t> seed;              ///< the rest override the scene's `search`
-  std::optional<double> time_limit;              ///< [s]
+  std::optional<std::string> output, svg;  ///< files; "-" is stdout
+  std::optional<std::string> format;       ///< text, json, yaml; otherwise by the name of the output
+  std::optional<std::int64_t> seed;        ///< the rest override the scene's `search`
+  std::optional<double> time_limit;        ///< [s]
   std::optional<std::string> planner, objective;
   bool no_refine = false, explain = false, quiet = false, verbose = false;
 };

@@ -27,7 +27,8 @@ std::string version() {
   int major = 0, minor = 0, bugfix = 0;
   nlopt_version(&major, &minor, &bugfix);
   return fmt::format(
-      "surefoot {}\nOMPL {}.{}.{}, NLopt {}.{}.{}, Eigen {}.{}.{}, yaml-cpp {}, nlohmann-json {}.{}.{}, CLI11 {}, fmt {}.{}.{}",
+      "surefoot {}\nOMPL {}.{}.{}, NLopt {}.{}.{}, Eigen {}.{}.{}, yaml-cpp {}, nlohmann-json {}.{}.{}, CLI11 {}, "
+      "fmt {}.{}.{}",
       SUREFOOT_VERSION, OMPL_MAJOR_VERSION, OMPL_MINOR_VERSION, OMPL_PATCH_VERSION, major, minor, bugfix,
       EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, SUREFOOT_YAML_CPP_VERSION,
       NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION,
@@ -44,7 +45,8 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   plan->add_option("SCENE", a.scene, "scene file (YAML), - for standard input")->required();
   plan->add_option("-o,--output", a.output, "write the plan to FILE (replaced as a whole), - for standard output")
       ->type_name("FILE");
-  plan->add_option("--format", a.format, "text, json or yaml (default: by the name of FILE, else text)")->type_name("NAME");
+  plan->add_option("--format", a.format, "text, json or yaml (default: by the name of FILE, else text)")
+      ->type_name("NAME");
   plan->add_option("--svg", a.svg, "also draw the plan")->type_name("FILE");
   plan->add_option("--seed", a.seed, "seed of the search (default: the scene's, else 1)")->type_name("N");
   plan->add_option("--time-limit", a.time_limit, "seconds until the search gives up (default: the scene's, else 10)")
@@ -77,7 +79,8 @@ CLI::App* add_query(CLI::App& app, Arguments& a) {
   query->footer(
       "One answer per line, in order; a bad line (an empty one too) answers {\"error\": ..., \"line\": N}.\n"
       "Exit status: 0 all lines were read, 2 bad input or usage.\n"
-      "Example: echo '{\"contacts\": [{\"p\": [0,0], \"n\": [0,1], \"mu\": 0.5}, {\"p\": [1,0], \"n\": [0,1], \"mu\": 0.5}],\n"
+      "Example: echo '{\"contacts\": [{\"p\": [0,0], \"n\": [0,1], \"mu\": 0.5}, "
+      "{\"p\": [1,0], \"n\": [0,1], \"mu\": 0.5}],\n"
       "          \"com\": [0.5,0.4], \"rho\": 0.2, \"kappa\": 0.17, \"nu\": 0.1}' | surefoot query");
   return query;
 }

@@ -28,7 +28,8 @@ std::vector<std::string> scenes_in(const fs::path& directory) {
 /// The scene that a path which leads nowhere may have meant: in the same directory or in maps/; "" if none.
 std::string scene_meant(const fs::path& path) {
   const std::string stem = path.extension() == ".yaml" ? path.stem().string() : path.filename().string();
-  for (const fs::path& directory : {path.parent_path().empty() ? fs::path(".") : path.parent_path(), fs::path("maps")}) {
+  const fs::path beside = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  for (const fs::path& directory : {beside, fs::path("maps")}) {
     const std::vector<std::string> scenes = scenes_in(directory);
     std::vector<std::string> stems;
     for (const std::string& scene : scenes) stems.push_back(fs::path(scene).stem().string());
@@ -37,7 +38,8 @@ std::string scene_meant(const fs::path& path) {
       const std::string near = terrain::near_miss(stem, stems);
       found = near.empty() ? stems.end() : std::find(stems.begin(), stems.end(), near);
     }
-    if (found != stems.end()) return fs::path(scenes[static_cast<std::size_t>(found - stems.begin())]).lexically_normal();
+    if (found != stems.end())
+      return fs::path(scenes[static_cast<std::size_t>(found - stems.begin())]).lexically_normal();
   }
   return {};
 }

@@ -52,7 +52,7 @@ std::string follow_links(const std::string& path) {
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(follow_links(path_)) {
   if (path_.empty()) fail(path_, ENOENT);
-  struct stat status{};
+  struct stat status {};
   if (::stat(target_.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) fail(path_, EISDIR);
     if (::access(target_.c_str(), W_OK) != 0) fail(path_, errno);

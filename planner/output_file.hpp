@@ -1,6 +1,7 @@
 // A file that is replaced as a whole or not at all: written beside its target under a temporary name, then renamed.
 // Until commit() the target is as it was; a program that dies before leaves it so. Whether the place can be written
-// to is found at once, before any long work. Devices and pipes (/dev/stdout) cannot be replaced and are written to directly.
+// to is found at once, before any long work. Devices and pipes (/dev/stdout) cannot be replaced and are written to
+// directly.
 #pragma once
 
 #include <string>

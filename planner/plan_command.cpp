@@ -163,14 +163,16 @@ int run_plan(const PlanArguments& arguments) {
   if (arguments.verbose)
     note(fmt::format("{}: {} segments, planner {}, seed {}, time limit {} s", scene.name,
                      scene.terrain.segments().size(), options.planner, options.seed, options.time_limit));
-  if (!arguments.quiet) show_progress(fmt::format("searching ({}, at most {} s) ...", options.planner, options.time_limit));
+  if (!arguments.quiet)
+    show_progress(fmt::format("searching ({}, at most {} s) ...", options.planner, options.time_limit));
   const auto begin = std::chrono::steady_clock::now();
   const auto elapsed = [begin] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   gaits::Plan plan = search(scene, options);
   show_progress("");
-  if (arguments.verbose) note(fmt::format("search: {}, {} steps, {:.3f} s", gaits::to_string(plan.status), plan.steps(), elapsed()));
+  if (arguments.verbose)
+    note(fmt::format("search: {}, {} steps, {:.3f} s", gaits::to_string(plan.status), plan.steps(), elapsed()));
   if (plan.status == gaits::Status::solved) {
     std::string fault;
     plan = refine_and_verify(scene, plan, !arguments.no_refine, arguments.verbose, fault);

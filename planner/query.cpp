@@ -68,7 +68,7 @@ json parse(std::string_view line) {
   try {
     return json::parse(line.begin(), line.end(), watch);
   } catch (const json::exception& fault) {
-    // "[json.exception.parse_error.101] parse error at line 1, column 9: syntax error ...": the column and what follows.
+    // "[json.exception.parse_error.101] parse error at line 1, column 9: syntax error ...": from the column on.
     std::string message = fault.what();
     if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
     if (const auto column = message.find("column "); column != std::string::npos) message.erase(0, column);
@@ -119,8 +119,7 @@ Contact read_contact(const json& value, const std::string& place) {
 
 Question read_question(std::string_view line) {
   static const std::vector<std::string> keys{"contacts", "com", "com_to", "rho", "kappa", "nu", "restitution"};
-  if (line.find_first_not_of(" \t\r") == std::string_view::npos)
-    throw BadLine("empty line, a JSON object is expected");
+  if (line.find_first_not_of(" \t\r") == std::string_view::npos) throw BadLine("empty line, a JSON object is expected");
   const json object = parse(line);
   if (!object.is_object()) throw BadLine(fmt::format("found {}, expected a JSON object", shown(object)));
   allow_only(object, "", keys);

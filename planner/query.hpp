@@ -1,5 +1,5 @@
-// The oracle as a service (docs: `surefoot query`): one JSON object per line in, one JSON object per line out, in order.
-// A line that is no proper question (an empty one too) is answered by {"error": ..., "line": n}; it stops nothing.
+// The oracle as a service (`surefoot query`): one JSON object per line in, one JSON object per line out, in order. A
+// line that is no proper question (an empty one too) is answered by {"error": ..., "line": n}; it stops nothing.
 // Nothing is guessed: contacts, com, rho, kappa, nu and each contact's p, n, mu must be given; unknown and
 // duplicate keys and non-finite numbers are refused.
 #pragma once

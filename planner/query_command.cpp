@@ -70,9 +70,9 @@ class QuerySession {
 
   int descriptor_;
   std::string name_;
-  std::string pending_;        // read, not yet answered
-  std::size_t searched_ = 0;   // of pending_, known to hold no line feed
-  bool skipping_ = false;      // inside a line that is too long
+  std::string pending_;       // read, not yet answered
+  std::size_t searched_ = 0;  // of pending_, known to hold no line feed
+  bool skipping_ = false;     // inside a line that is too long
   std::size_t number_ = 0;
   std::string out_;
 };

@@ -117,7 +117,8 @@ Factors factors_of(const Scene& scene, const Plan& plan) {
   return out;
 }
 
-/// One pass in windows over the COMs whose factors are below `limit`, the weakest first. Returns whether anything changed.
+/// One pass in windows over the COMs whose factors are below `limit`, the weakest first. Returns whether anything
+/// changed.
 bool sweep(const Scene& scene, Plan& plan, const Timeline& timeline, const Factors& factors, double limit,
            const RefineOptions& options) {
   const int coms = static_cast<int>(plan.stances.size()), first_free = scene.start.com ? 1 : 0;

@@ -3,10 +3,11 @@
 // safety factor is not below the input's, steps and segments stay the same, the result is the same every time. Does not
 // guarantee a global optimum. The cost grows linearly with the number of steps.
 //
-// Windows of a few neighbouring COMs are treated in turn, the weakest place first. A safety factor is a minimum of
-// many smooth functions of which the oracle tells value and gradient of the least, and the optimum lies on ridges
-// where several meet; a gradient method on the factor itself zigzags there. So every evaluation leaves a cut (its tangent)
-// and NLopt maximises the least of the cuts within a trust region (refine_model.hpp), until the region is small.
+// Windows of a few neighbouring COMs are treated in turn, the weakest place first; each maximises the least factor it
+// touches, then their sum. A safety factor is a minimum of many smooth functions of which the oracle tells value and
+// gradient of the least, and the optimum lies on ridges where several meet; a gradient method on the factor itself
+// zigzags there. So every evaluation leaves a cut (its tangent), and NLopt maximises the least of the cuts within a
+// trust region (refine_model.hpp), until the region is small.
 #pragma once
 
 #include "gaits/plan.hpp"

@@ -24,9 +24,9 @@ constexpr double step_tolerance = 1e-4;  // in units of the radius: the trust re
 
 /// The model in scaled variables: u = (x - centre) / radius, tau = (t - least) / (radius * slope).
 struct Scaled {
-  const RefineModel* model;
+  const RefineModel* model = nullptr;
   VectorXd centre;
-  double radius, least, slope, elements;
+  double radius = 1, least = 0, slope = 0, elements = 1;
   std::vector<const Cut*> factors, clearances;
   std::vector<const ReachLimit*> farthest, nearest;  // where the greatest, the least reach can bind
   VectorXd x, gradient;                              // scratch
@@ -135,8 +135,11 @@ void MovingPoint::add_gradient(const Vector2d& along, Eigen::Ref<VectorXd> gradi
 VectorXd maximise(const RefineModel& model, const VectorXd& centre, double least, double radius, double& gain) {
   gain = 0;
   const Eigen::Index m = centre.size();
-  Scaled scaled{.model = &model, .centre = centre, .radius = radius, .least = least, .slope = 0, .elements = 1,
-                .factors = {}, .clearances = {}, .farthest = {}, .nearest = {}, .x = centre, .gradient = VectorXd::Zero(m)};
+  Scaled scaled;
+  scaled.model = &model;
+  scaled.centre = scaled.x = centre;
+  scaled.radius = radius;
+  scaled.least = least;
   for (const Cut& cut : model.factors) {
     scaled.slope = std::max(scaled.slope, cut.gradient.lpNorm<1>());
     scaled.elements = std::max(scaled.elements, 1.0 + cut.element);

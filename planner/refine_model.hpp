@@ -1,5 +1,6 @@
 // The inner problem of refinement, solved by NLopt: within a trust region, maximise the least of the cuts that
-// earlier evaluations left (epigraph variable t), subject to reach. Nothing here asks the oracle; all functions are smooth.
+// earlier evaluations left (epigraph variable t), subject to reach. Nothing here asks the oracle; all functions are
+// smooth.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +11,9 @@ namespace surefoot::planner {
 /// A point that moves with the variables: base + columns . x. COMs and feet are such points.
 struct MovingPoint {
   Eigen::Vector2d base = Eigen::Vector2d::Zero();
-  int first = -1;                                       ///< first variable, -1 if the point is fixed
-  int count = 0;                                        ///< 2 for a COM (columns are x and y), 1 for a foot
-  Eigen::Vector2d direction = Eigen::Vector2d::UnitX(); ///< of a foot's variable
+  int first = -1;                                        ///< first variable, -1 if the point is fixed
+  int count = 0;                                         ///< 2 for a COM (columns are x and y), 1 for a foot
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  ///< of a foot's variable
   Eigen::Vector2d at(const Eigen::VectorXd& x) const;
   /// gradient += d(direction . point)/dx
   void add_gradient(const Eigen::Vector2d& along, Eigen::Ref<Eigen::VectorXd> gradient) const;

@@ -12,37 +12,35 @@ namespace surefoot::planner {
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 using gaits::leg_count;
-using stability::Critical;
 
 namespace {
 
-/// Accepted iterates keep this much of the reach limits and of the clearance unused [relative to reach_max], so that
-/// the verifier, which computes the same distances otherwise, cannot see them broken: rounding is below 1e-14.
-constexpr double distance_slack = 1e-9;
 /// Feet keep this far from the ends of their segment [m], or a twentieth of its length where that is less.
 constexpr double vertex_margin = 0.005;
 /// Step of the central differences for feet and clearance [relative to reach_max]: the cube root of the relative
 /// error of a safety factor (1e-12) is 1e-4; smaller, because kinks are near and first order is enough.
 constexpr double difference_step = 1e-6;
+/// Relative difference of two factors that are equal but for rounding (their error is about 1e-12).
+constexpr double bound_tolerance = 1e-11;
 /// Factors are followed by foot derivatives only below this multiple of the least one.
 constexpr double near_least = 3;
 
-Factor factor_of(const stability::SafetyFactor& safety) {
-  // An equilibrium facet depends on the COM through z_3 x alone (theory section 3), so a zero gradient means z_3 = 0:
-  // the facet bounds the factor by the same number at every COM.
-  return {.value = safety.value,
-          .bound = std::isfinite(safety.value) && safety.critical.kind == Critical::Kind::equilibrium &&
-                   safety.gradient.isZero(0)};
+/// Equilibrium bounds every safety factor from above. One of its facets depends on the COM through z_3 x alone (theory
+/// section 3), so a zero gradient means z_3 = 0: that facet gives the same number at every COM, and a factor that has
+/// reached it cannot rise, whatever mode shares the place of being least.
+Factor factor_of(const stability::RobustOracle& oracle, const stability::SafetyFactor& safety, const Vector2d& com) {
+  const stability::SafetyFactor limit = oracle.equilibrium_factor(com);
+  const bool reached = std::isfinite(limit.value) && safety.value >= limit.value * (1 - bound_tolerance);
+  return {.value = safety.value, .bound = reached && limit.gradient.isZero(0)};
 }
 
 }  // namespace
 
 Factor stance_factor(const gaits::Scene& scene, const gaits::Feet& feet, const Vector2d& com) {
   const auto oracle = gaits::oracle_of(scene, feet);
-  const stability::SafetyFactor safety = scene.criterion == gaits::Criterion::equilibrium
-                                             ? oracle.equilibrium_factor(com)
-                                             : oracle.safety_factor(com);
-  Factor factor = factor_of(safety);
+  const stability::SafetyFactor safety =
+      scene.criterion == gaits::Criterion::equilibrium ? oracle.equilibrium_factor(com) : oracle.safety_factor(com);
+  Factor factor = factor_of(oracle, safety, com);
   factor.from_gradient = safety.gradient;
   return factor;
 }
@@ -52,7 +50,7 @@ Factor transfer_factor(const gaits::Scene& scene, const gaits::Feet& feet, const
   const stability::LineSafetyFactor line = scene.criterion == gaits::Criterion::equilibrium
                                                ? oracle.line_equilibrium_factor(from, to)
                                                : oracle.line_safety_factor(from, to);
-  Factor factor = factor_of(line.least);
+  Factor factor = factor_of(oracle, line.least, from + line.lambda * (to - from));
   factor.lambda = line.lambda;
   factor.from_gradient = (1 - line.lambda) * line.least.gradient;  // envelope theorem: lambda stays where it is
   factor.to_gradient = line.lambda * line.least.gradient;
@@ -149,9 +147,10 @@ MovingPoint RefineWindow::foot(int placement) const {
 
 RefineModel RefineWindow::model() const {
   RefineModel model;
-  model.reach_min = scene_.robot.reach_min + 2 * distance_slack * scene_.robot.reach_max;
-  model.reach_max = scene_.robot.reach_max * (1 - 2 * distance_slack);
-  model.least_clearance = scene_.robot.clearance + 2 * distance_slack * scene_.robot.reach_max;
+  const gaits::Robot inner = gaits::drawn_in(gaits::drawn_in(scene_.robot));  // twice: NLopt's tolerance is inside too
+  model.reach_min = inner.reach_min;
+  model.reach_max = inner.reach_max;
+  model.least_clearance = inner.clearance;
   model.lower = lower_;
   model.upper = upper_;
   model.sum_gradient = VectorXd::Zero(variables());
@@ -274,19 +273,11 @@ void RefineWindow::add_clearances(Evaluation& out) const {
 }
 
 bool RefineWindow::within_reach() const {
-  const double slack = distance_slack * scene_.robot.reach_max;
-  gaits::Robot robot = scene_.robot;
-  robot.reach_min += slack;
-  robot.reach_max -= slack;
-  const auto holds = [&](const gaits::Feet& feet, int from, int to) {
-    return std::all_of(feet.begin(), feet.end(), [&](const auto& foot) {
-      return !foot || gaits::within_reach(robot, foot->position, plan_.stances[from].com, plan_.stances[to].com);
-    });
-  };
+  const gaits::Robot robot = gaits::drawn_in(scene_.robot);
   for (int k = first_; k <= last_; ++k)
-    if (!holds(plan_.stances[k].feet, k, k)) return false;
+    if (!gaits::within_reach(robot, plan_.stances[k].feet, plan_.stances[k].com, plan_.stances[k].com)) return false;
   for (int k = first_transfer(); k <= last_transfer(); ++k)
-    if (!holds(feet_of(k), k, k + 1)) return false;
+    if (!gaits::within_reach(robot, feet_of(k), plan_.stances[k].com, plan_.stances[k + 1].com)) return false;
   return true;
 }
 

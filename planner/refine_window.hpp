@@ -33,7 +33,7 @@ struct Timeline {
 struct Factor {
   double value = 0;
   double lambda = 0;   ///< where on a transfer's line it is least
-  bool bound = false;  ///< limited by an equilibrium facet that no COM changes (friction alone): cannot rise
+  bool bound = false;  ///< at a bound set by friction alone, the same for every COM: cannot rise
   Eigen::Vector2d from_gradient = Eigen::Vector2d::Zero(), to_gradient = Eigen::Vector2d::Zero();
 };
 Factor stance_factor(const gaits::Scene& scene, const gaits::Feet& feet, const Eigen::Vector2d& com);
@@ -72,7 +72,9 @@ class RefineWindow {
  private:
   int first_transfer() const { return std::max(first_ - 1, 0); }
   int last_transfer() const { return std::min(last_, plan_.steps() - 1); }
-  gaits::Feet feet_of(int transfer) const { return gaits::feet_during(plan_.stances[transfer], plan_.transfers[transfer]); }
+  gaits::Feet feet_of(int transfer) const {
+    return gaits::feet_during(plan_.stances[transfer], plan_.transfers[transfer]);
+  }
   const terrain::Foothold& foothold(int placement) const;
   MovingPoint com(int stance) const;
   MovingPoint foot(int placement) const;

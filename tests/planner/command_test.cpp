@@ -69,7 +69,8 @@ TEST_CASE("JSON on stdout is the same plan as JSON in a file, and the same seed 
     parsed.erase("time_s");
     return parsed;
   };
-  const auto first = place.run("plan scene.yaml --format json --seed 7"), second = place.run("plan - --format json --seed 7 -o -", scene);
+  const auto first = place.run("plan scene.yaml --format json --seed 7");
+  const auto second = place.run("plan - --format json --seed 7 -o -", scene);
   REQUIRE(first.status == 0);
   REQUIRE(second.status == 0);
   REQUIRE(place.run("plan scene.yaml -q --seed 7 -o plan.json").status == 0);
@@ -154,16 +155,42 @@ TEST_CASE("Bad usage is one error and status 2", "[command]") {
   place.write("scene.yaml", scene);
   place.write("plan.json", "precious");
   place.write("plan.svg", "precious");
-  for (const char* arguments :
-       {"", "paln scene.yaml", "plan", "plan missing.yaml", "plan .", "plan ''", "plan scene.yaml extra", "plan scene.yaml --sede 3",
-        "plan scene.yaml --seed x", "plan scene.yaml --seed 0", "plan scene.yaml --seed -1", "plan scene.yaml --seed 1e3",
-        "plan scene.yaml --seed 99999999999999999999", "plan scene.yaml --time-limit nan", "plan scene.yaml --time-limit -1",
-        "plan scene.yaml --time-limit 0", "plan scene.yaml --format jsno", "plan scene.yaml --planner RTT",
-        "plan scene.yaml --objective speed", "plan scene.yaml -o nowhere/plan.json", "plan scene.yaml -o .",
-        "plan scene.yaml -o ''", "plan scene.yaml -o scene.yaml", "plan scene.yaml -o ./scene.yaml",
-        "plan scene.yaml -o plan.json --svg ./plan.json", "plan scene.yaml -o plan.json --svg nowhere/plan.svg",
-        "plan scene.yaml --svg -", "plan scene.yaml -q -v", "check scene.yaml", "check scene.yaml missing.json",
-        "check scene.yaml scene.yaml", "check scene.yaml plan.json", "check - -", "query a b", "simulate", "region scene.yaml"}) {
+  for (const char* arguments : {"",
+                                "paln scene.yaml",
+                                "plan",
+                                "plan missing.yaml",
+                                "plan .",
+                                "plan ''",
+                                "plan scene.yaml extra",
+                                "plan scene.yaml --sede 3",
+                                "plan scene.yaml --seed x",
+                                "plan scene.yaml --seed 0",
+                                "plan scene.yaml --seed -1",
+                                "plan scene.yaml --seed 1e3",
+                                "plan scene.yaml --seed 99999999999999999999",
+                                "plan scene.yaml --time-limit nan",
+                                "plan scene.yaml --time-limit -1",
+                                "plan scene.yaml --time-limit 0",
+                                "plan scene.yaml --format jsno",
+                                "plan scene.yaml --planner RTT",
+                                "plan scene.yaml --objective speed",
+                                "plan scene.yaml -o nowhere/plan.json",
+                                "plan scene.yaml -o .",
+                                "plan scene.yaml -o ''",
+                                "plan scene.yaml -o scene.yaml",
+                                "plan scene.yaml -o ./scene.yaml",
+                                "plan scene.yaml -o plan.json --svg ./plan.json",
+                                "plan scene.yaml -o plan.json --svg nowhere/plan.svg",
+                                "plan scene.yaml --svg -",
+                                "plan scene.yaml -q -v",
+                                "check scene.yaml",
+                                "check scene.yaml missing.json",
+                                "check scene.yaml scene.yaml",
+                                "check scene.yaml plan.json",
+                                "check - -",
+                                "query a b",
+                                "simulate",
+                                "region scene.yaml"}) {
     const auto run = place.run(arguments);
     INFO("surefoot " << arguments << "\n" << run.err);
     CHECK(run.status == 2);
@@ -198,7 +225,8 @@ TEST_CASE("Help and version go to stdout", "[command]") {
     CHECK_THAT(place.run(std::string(command) + " --help").out, Catch::Contains("Example: "));
   const auto version = place.run("--version");
   CHECK(version.status == 0);
-  for (const char* word : {"surefoot ", "OMPL ", "NLopt ", "Eigen ", "yaml-cpp 0."}) CHECK_THAT(version.out, Catch::Contains(word));
+  for (const char* word : {"surefoot ", "OMPL ", "NLopt ", "Eigen ", "yaml-cpp 0."})
+    CHECK_THAT(version.out, Catch::Contains(word));
 }
 
 TEST_CASE("Output that cannot be written is an error, not a crash", "[command]") {

@@ -15,9 +15,8 @@ using surefoot::planner::answer_query;
 
 namespace {
 
-const std::string flat =
-    R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}, {"p": [1,0], "n": [0,2], "mu": 0.5}], )"
-    R"("com": [0.5,0.4], "rho": 0.2, "kappa": 0.17, "nu": 0.1})";
+const std::string flat = R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}, {"p": [1,0], "n": [0,2], "mu": 0.5}], )"
+                         R"("com": [0.5,0.4], "rho": 0.2, "kappa": 0.17, "nu": 0.1})";
 
 std::string answer(const std::string& line, std::size_t number = 1) {
   std::string out;
@@ -83,7 +82,8 @@ TEST_CASE("Without disturbances a stable posture is safe without limit, written 
 TEST_CASE("Answers begin with the promised keys in the promised order", "[query]") {
   const std::string text = answer(flat);
   std::size_t last = 0;
-  for (const char* key : {"{\"equilibrium\": ", "\"robust\": ", "\"safety_factor\": ", "\"critical\": ", "\"feasible_modes\": ["}) {
+  for (const char* key :
+       {"{\"equilibrium\": ", "\"robust\": ", "\"safety_factor\": ", "\"critical\": ", "\"feasible_modes\": ["}) {
     INFO(key);
     const std::size_t at = text.find(key, last);
     REQUIRE(at != std::string::npos);
@@ -150,7 +150,8 @@ TEST_CASE("Extreme but finite numbers get a proper answer or an error", "[query]
 
 TEST_CASE("The program answers every line in order and goes on after a bad one", "[query][program]") {
   const surefoot::tests::Workplace place;
-  const auto run = place.run("query", flat + "\n\nnonsense\n" + flat + "\r\n" + std::string(2u << 20, 'x') + "\n" + flat);
+  const std::string huge(2u << 20, 'x');
+  const auto run = place.run("query", flat + "\n\nnonsense\n" + flat + "\r\n" + huge + "\n" + flat);
   CHECK(run.status == 0);
   CHECK(run.err.empty());
   std::istringstream lines(run.out);
@@ -169,9 +170,9 @@ TEST_CASE("An answer comes while the pipe stays open", "[query][program]") {
   // The shell sends the second question only after it has read the first answer.
   const surefoot::tests::Workplace place;
   place.write("question", flat + "\n");
-  const auto run = place.shell(
-      "mkfifo to; '" SUREFOOT_BINARY "' query <to | { exec 3>to; cat question >&3; timeout 20 head -n 1 >first; "
-      "cat question >&3; exec 3>&-; cat >second; }");
+  const auto run = place.shell("mkfifo to; '" SUREFOOT_BINARY
+                               "' query <to | { exec 3>to; cat question >&3; timeout 20 head -n 1 >first; "
+                               "cat question >&3; exec 3>&-; cat >second; }");
   CHECK(run.status == 0);
   CHECK(place.read("first").starts_with("{\"equilibrium\": true"));
   CHECK(place.read("first") == place.read("second"));

@@ -17,12 +17,13 @@ using namespace surefoot;
 namespace {
 
 /// Level ground, two feet 1 m apart, and a third in reach: everything can be computed by hand.
-gaits::Scene level_scene(const std::string& rest) {
-  return gaits::parse_scene(
-      "surefoot: 1\nterrain: {friction: 2, chains: [{vertices: [[-2, 0], [3, 0]]}]}\n"
-      "robot: {radius_of_gyration: 0.3, reach: [0.3, 1.2], clearance: 0.25}\n"
-      "disturbance: {kappa: 0.1, nu: 0.1}\n" + rest,
-      "level.yaml");
+gaits::Scene level_scene(const std::string& rest, const std::string& friction = "2") {
+  return gaits::parse_scene("surefoot: 1\nterrain: {friction: " + friction +
+                                ", chains: [{vertices: [[-2, 0], [3, 0]]}]}\n"
+                                "robot: {radius_of_gyration: 0.3, reach: [0.3, 1.2], clearance: 0.25}\n"
+                                "disturbance: {kappa: 0.1, nu: 0.1}\n" +
+                                rest,
+                            "level.yaml");
 }
 
 /// One step: feet at 0 and 1, leg 3 is placed at 0.9, leg 2 is lifted.
@@ -99,18 +100,17 @@ TEST_CASE("A given start COM stays and the last COM stays in the goal", "[refine
 
 TEST_CASE("Where friction alone limits, or nothing does, refinement is left out with the reason and nothing is lost",
           "[refine]") {
-  auto scene = level_scene(start + "}\ngoal: {com_x: [0.1, 0.8]}\n");
-  // Slipping limits to 2 / kappa everywhere as long as tipping comes later: kappa = 1.5, nu = 0.
-  scene.disturbance = {1.5, 0};
-  const gaits::Plan slipping = one_step(scene, {0.5, 0.3}, {0.45, 0.3});
-  if (slipping.safety_factor == Approx(2 / 1.5)) {
-    const gaits::Plan same = planner::refine(scene, slipping);
-    REQUIRE(same.left_out.size() == slipping.left_out.size() + 1);
-    CHECK_THAT(same.left_out.back().why, Catch::Contains("friction"));
-    planner::RefineOptions all;
-    all.leave_out = false;
-    CHECK(planner::refine(scene, slipping, all).safety_factor == Approx(slipping.safety_factor));
-  }
+  auto scene = level_scene(start + "}\ngoal: {com_x: [0.1, 0.8]}\n", "0.2");
+  // Slipping takes 0.2 = 0.15 s wherever the COM is; tipping takes at least 0.45 = 0.15 * 0.5 s.
+  scene.disturbance = {0.15, 0};
+  const gaits::Plan slipping = one_step(scene, {0.5, 0.5}, {0.45, 0.5});
+  REQUIRE(slipping.safety_factor == Approx(0.2 / 0.15));
+  const gaits::Plan left = planner::refine(scene, slipping);
+  REQUIRE(left.left_out.size() == slipping.left_out.size() + 1);
+  CHECK_THAT(left.left_out.back().why, Catch::Contains("friction"));
+  planner::RefineOptions all;
+  all.leave_out = false;
+  CHECK(planner::refine(scene, slipping, all).safety_factor == Approx(left.safety_factor));
   scene.disturbance = {0, 0};
   const gaits::Plan calm = one_step(scene, {0.3, 0.8}, {0.25, 0.8});
   REQUIRE(std::isinf(calm.safety_factor));

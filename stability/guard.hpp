@@ -1,6 +1,6 @@
 // Bounds on the rounding error of the rows of rows.hpp in double precision.
 //
-// Let u = 2^-53. Normals are scaled by powers of two so that |n_x|, |n_y| < 1; a = 1 + max mu bounds the components of
+// Let u = 2^-53. Normals are scaled by powers of two so that |n_x|, |n_y| <= 1; a = 1 + max mu bounds the components of
 // cone edges; R bounds |r_x| + |r_y| over contacts (and over the line, where there is one); rho2 = rho^2. Errors, relative
 // to the magnitude given, follow by counting operations ("k u" below; second-order terms are absorbed by rounding up):
 //   r = fl(x_i - x)                        1 u of R

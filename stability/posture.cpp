@@ -24,13 +24,13 @@ Vec2<Rational> rational(const Eigen::Vector2d& v) { return {Rational(v.x()), Rat
 
 bool same(const Vec2<double>& a, const Vec2<double>& b) { return a.x == b.x && a.y == b.y; }
 
-/// Scaling by a power of two is exact but for components that become subnormal, which underflow_slack covers.
+/// Components of at most 1, one of them at least 1/2. Scaling by a power of two is exact but for components that become
+/// subnormal, which underflow_slack covers.
 Vec2<double> scaled_normal(const Eigen::Vector2d& n) {
-  int ex = 0, ey = 0;
-  std::frexp(n.x(), &ex);
-  std::frexp(n.y(), &ey);
-  const int e = n.x() == 0 ? ey : n.y() == 0 ? ex : std::max(ex, ey);
-  return {std::ldexp(n.x(), -e), std::ldexp(n.y(), -e)};
+  const double size = std::max(std::abs(n.x()), std::abs(n.y()));
+  if (size >= 0.5 && size <= 1) return {n.x(), n.y()};
+  const int exponent = std::ilogb(size) + 1;
+  return {std::ldexp(n.x(), -exponent), std::ldexp(n.y(), -exponent)};
 }
 
 /// (x_l - x_i) x n_l: the rate at which contact l opens when the body turns about contact i. Independent of the COM.
@@ -194,7 +194,7 @@ bool Posture::parallel(int a, int b) const {
 
 /// Rays a < b span a plane that an earlier pair has spanned already if a third ray lies in it and pairs with one of them
 /// earlier in the order.
-bool Posture::is_new_plane(int a, int b, const std::array<int, 6>& sides) const {
+bool Posture::is_new_plane(int a, int b, const std::array<signed char, 6>& sides) const {
   for (int c = 0; c < b; ++c) {
     if (c == a || sides[c] != 0) continue;
     if (!parallel(std::min(a, c), std::max(a, c))) return false;
@@ -206,13 +206,13 @@ bool Posture::is_new_plane(int a, int b, const std::array<int, 6>& sides) const 
 void Posture::add_facet_if_supporting(int a, int b) {
   const Row<double> z = cross(rays_[a], rays_[b]);
   // z: 9 u of 2 a^2 (spread); the product with the third ray: at most 3 terms, 8 u more, of 6 a^3 spread.
-  const double bound = 128 * unit_roundoff * edge_bound_ * edge_bound_ * edge_bound_ * spread_ + underflow_slack;
-  std::array<int, 6> sides{};
+  const double bound = 4 * facet_error_ * edge_bound_ * spread_ + underflow_slack;
+  std::array<signed char, 6> sides;
   bool positive = false, negative = false;
   for (int c = 0; c < 2 * count_; ++c) {
     if (c == a || c == b) continue;
     const double value = dot(z, rays_[c]);
-    sides[c] = value > bound ? 1 : value < -bound ? -1 : exact_side(a, b, c);
+    sides[c] = static_cast<signed char>(value > bound ? 1 : value < -bound ? -1 : exact_side(a, b, c));
     positive |= sides[c] > 0;
     negative |= sides[c] < 0;
     if (positive && negative) {
@@ -240,9 +240,8 @@ void Posture::find_facets() {
 
 ModeSpec& Posture::add_mode(ModeSpec::Kind kind) {
   ModeSpec& spec = modes_[mode_count_++];
-  spec = ModeSpec{};
-  spec.kind = kind;
-  spec.mode.contacts = count_;
+  spec = {kind, 0, 0, 0, 0, 0, {}, {{}, static_cast<signed char>(count_)}};
+  spec.mode.at.fill(ContactState::breaks);
   return spec;
 }
 

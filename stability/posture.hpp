@@ -15,7 +15,7 @@ namespace surefoot::stability {
 /// inner normal z about contact 1's position. z = sign * (ray a x ray b).
 struct Facet {
   Row<double> z;
-  signed char a = 0, b = 0, sign = 1;
+  signed char a, b, sign;
 };
 
 class Posture {
@@ -57,7 +57,7 @@ class Posture {
   void add_facet_if_supporting(int a, int b);
   int exact_side(int a, int b, int c) const;
   bool parallel(int a, int b) const;
-  bool is_new_plane(int a, int b, const std::array<int, 6>& sides) const;
+  bool is_new_plane(int a, int b, const std::array<signed char, 6>& sides) const;
   void list_modes();
   bool can_slide(int i, int sigma, std::array<bool, 3>& row_vanishes) const;
   void list_slides(int i);
@@ -72,12 +72,12 @@ class Posture {
   double rho_, rho2_;
   double edge_bound_ = 1, facet_error_ = 0, spread_ = 0;
   std::array<Eigen::Vector2d, 3> position_;
-  std::array<Vec2<double>, 3> normal_;        // scaled by a power of two to components below 1
+  std::array<Vec2<double>, 3> normal_;        // scaled by a power of two to components of at most 1
   std::array<Vec2<double>, 3> given_normal_;  // as given: what exact decisions use
   std::array<double, 3> friction_;
   std::array<Row<double>, 6> rays_;     // about contact 1: (C, d x C)
   std::array<Facet, 30> facets_;
-  std::array<ModeSpec, 22> modes_;
+  std::array<ModeSpec, 22> modes_;  // the first mode_count_ of them; likewise facets_: the rest is left uninitialised
   std::array<std::array<signed char, 3>, 3> turn_sign_{};
 };
 

@@ -19,7 +19,7 @@ namespace surefoot::stability {
 /// What limits a safety factor.
 struct Critical {
   enum class Kind { none, equilibrium, mode } kind = Kind::none;
-  ContactMode mode;          ///< meaningful for Kind::mode
+  ContactMode mode{};        ///< meaningful for Kind::mode
   std::string name() const;  ///< "none", "equilibrium" or the mode's letters
 };
 

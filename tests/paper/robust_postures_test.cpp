@@ -199,7 +199,7 @@ TEST_CASE("[OR-P, Lemma IV.2] fails: RF and equilibrium coexist for close feet o
   CHECK(coexisting == 5);
 }
 
-TEST_CASE("[OR-P, section III] calls UW kinematically infeasible; on steep ground it occurs", "[paper]") {
+TEST_CASE("[OR-P, section III] calls UW kinematically infeasible, on steep ground it occurs", "[paper]") {
   const std::uint64_t seed = 25;
   Sampler sampler(seed);
   int sliding_apart = 0;

@@ -104,7 +104,7 @@ TEST_CASE("Rolling over one foot starts where the line of gravity leaves it", "[
   }
 }
 
-TEST_CASE("A floor and a ceiling foot brace against every wrench; level feet and single feet do not", "[reference]") {
+TEST_CASE("A floor and a ceiling foot brace against every wrench, level feet and single feet do not", "[reference]") {
   const std::vector<Contact> brace{{{0, 0}, {0, 1}, 0.5}, {{0, 1}, {0, -1}, 0.5}};
   const SamplePosture sample = posture(brace, {3, -2}, 0.3, {2, 5});
   CHECK(DirectReference<Rational>(sample).structure().facets.empty());

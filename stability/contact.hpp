@@ -37,8 +37,8 @@ enum class ContactState : char {
 
 /// One state per contact, in the order of the contacts: "UF", "FWR", ...
 struct ContactMode {
-  std::array<ContactState, 3> at;
-  signed char contacts;
+  std::array<ContactState, 3> at{ContactState::breaks, ContactState::breaks, ContactState::breaks};
+  int contacts = 0;
   std::string name() const {
     std::string text;
     for (int i = 0; i < contacts; ++i) text += static_cast<char>(at[i]);

@@ -240,8 +240,7 @@ void Posture::find_facets() {
 
 ModeSpec& Posture::add_mode(ModeSpec::Kind kind) {
   ModeSpec& spec = modes_[mode_count_++];
-  spec = {kind, 0, 0, 0, 0, 0, {}, {{}, static_cast<signed char>(count_)}};
-  spec.mode.at.fill(ContactState::breaks);
+  spec = {kind, 0, 0, 0, 0, 0, {}};
   return spec;
 }
 
@@ -270,7 +269,6 @@ void Posture::add_roll(int i) {
   ModeSpec& spec = add_mode(ModeSpec::Kind::roll);
   spec.i = static_cast<signed char>(i);
   spec.sense = static_cast<signed char>(sense);
-  spec.mode.at[i] = ContactState::rolls;
 }
 
 /// Sliding at i leaves two freedoms: the speed v along t_i and a rotation alpha about x_i, in which contact l opens at the rate
@@ -300,7 +298,6 @@ void Posture::list_slides(int i) {
     spec.i = static_cast<signed char>(i);
     spec.sigma_i = static_cast<signed char>(sigma);
     spec.row_vanishes = vanishes;
-    spec.mode.at[i] = sigma > 0 ? ContactState::slides_along : ContactState::slides_against;
   }
 }
 
@@ -340,8 +337,6 @@ void Posture::list_two_slides(int i, int j) {
       spec.sigma_i = static_cast<signed char>(sigma_i);
       spec.sigma_j = static_cast<signed char>(sigma_j);
       spec.sense = static_cast<signed char>(sense);
-      spec.mode.at[i] = sigma_i > 0 ? ContactState::slides_along : ContactState::slides_against;
-      spec.mode.at[j] = sigma_j > 0 ? ContactState::slides_along : ContactState::slides_against;
     }
 }
 

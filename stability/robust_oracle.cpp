@@ -17,7 +17,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using Eigen::Vector2d;
 
 Critical critical_equilibrium() { return {Critical::Kind::equilibrium, {}}; }
-Critical critical_mode(const ModeSpec& spec) { return {Critical::Kind::mode, spec.mode}; }
+Critical critical_mode(const Posture& posture, const ModeSpec& spec) {
+  return {Critical::Kind::mode, contact_mode(spec, posture.contacts())};
+}
 
 SafetyFactor unlimited() {
   SafetyFactor sigma;
@@ -75,7 +77,7 @@ void lower_by_mode(const Posture& posture, const Frame<double>& frame, const Vec
   const LeastScale scale = mode_scale(frame, spec, box, best.value);
   if (!(scale.s < best.value)) return;
   best.value = scale.s;
-  best.critical = critical_mode(spec);
+  best.critical = critical_mode(posture, spec);
   best.witness = scale.at;
   best.gradient = scale.s > 0 ? mode_gradient(posture, com, spec, scale) : Vector2d::Zero();
 }
@@ -113,7 +115,7 @@ std::vector<ContactMode> RobustOracle::feasible_modes(const Vector2d& com) const
   PointQuery query(posture_, com, box_);
   std::vector<ContactMode> found;
   for (const ModeSpec& spec : posture_.modes())
-    if (query.feasible(spec)) found.push_back(spec.mode);
+    if (query.feasible(spec)) found.push_back(contact_mode(spec, posture_.contacts()));
   return found;
 }
 
@@ -158,7 +160,7 @@ LineVerdict RobustOracle::line(const Vector2d& from, const Vector2d& to) const {
     const LineMode mode = query.feasible(spec);
     if (mode.outcome == LineOutcome::excluded) continue;
     const bool feasible = mode.outcome == LineOutcome::feasible;
-    verdict = {feasible ? Outcome::unstable : Outcome::uncertain, mode.lambda, critical_mode(spec)};
+    verdict = {feasible ? Outcome::unstable : Outcome::uncertain, mode.lambda, critical_mode(posture_, spec)};
     if (feasible) return verdict;
   }
   return verdict;
@@ -168,7 +170,7 @@ std::vector<ContactMode> RobustOracle::line_feasible_modes(const Vector2d& from,
   LineQuery query(posture_, from, to, box_);
   std::vector<ContactMode> found;
   for (const ModeSpec& spec : posture_.modes())
-    if (query.feasible(spec).outcome != LineOutcome::excluded) found.push_back(spec.mode);
+    if (query.feasible(spec).outcome != LineOutcome::excluded) found.push_back(contact_mode(spec, posture_.contacts()));
   return found;
 }
 

@@ -55,8 +55,18 @@ struct ModeSpec {
   signed char sigma_i, sigma_j;  // +1: U, -1: W
   signed char sense;             // roll, two_slides: required sign of alpha or of xi along c; 0: free
   std::array<bool, 3> row_vanishes;  // slide: N_l is a multiple of N_i, its breaking row is identically zero
-  ContactMode mode;
 };
+
+inline ContactMode contact_mode(const ModeSpec& spec, int contacts) {
+  const auto slide = [](int sigma) { return sigma > 0 ? ContactState::slides_along : ContactState::slides_against; };
+  ContactMode mode;
+  mode.contacts = contacts;
+  if (spec.kind == ModeSpec::Kind::roll) mode.at[spec.i] = ContactState::rolls;
+  if (spec.kind == ModeSpec::Kind::slide || spec.kind == ModeSpec::Kind::two_slides)
+    mode.at[spec.i] = slide(spec.sigma_i);
+  if (spec.kind == ModeSpec::Kind::two_slides) mode.at[spec.j] = slide(spec.sigma_j);
+  return mode;
+}
 
 inline int loaded_edge(int sigma) { return sigma > 0 ? edge_w : edge_u; }
 

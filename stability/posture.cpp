@@ -24,6 +24,11 @@ Vec2<Rational> rational(const Eigen::Vector2d& v) { return {Rational(v.x()), Rat
 
 bool same(const Vec2<double>& a, const Vec2<double>& b) { return a.x == b.x && a.y == b.y; }
 
+/// Equal, or both along one axis: decided without arithmetic.
+bool surely_parallel(const Vec2<double>& a, const Vec2<double>& b) {
+  return same(a, b) || (a.x == 0 && b.x == 0) || (a.y == 0 && b.y == 0);
+}
+
 /// Components of at most 1, one of them at least 1/2. Scaling by a power of two is exact but for components that become
 /// subnormal, which underflow_slack covers.
 Vec2<double> scaled_normal(const Eigen::Vector2d& n) {
@@ -184,6 +189,7 @@ int Posture::exact_side(int a, int b, int c) const {
 }
 
 bool Posture::parallel(int a, int b) const {
+  if (a / 2 == b / 2) return friction_[a / 2] == 0;  // C^u x C^w = 2 mu |n|^2
   const Row<double> z = cross(rays_[a], rays_[b]);
   if (std::abs(z.q) > facet_error_ || std::abs(z.p) > facet_error_ * spread_ + underflow_slack ||
       std::abs(z.one) > facet_error_ * spread_ + underflow_slack)
@@ -283,11 +289,18 @@ bool Posture::can_slide(int i, int sigma, std::array<bool, 3>& row_vanishes) con
     if (turn > 0) positive = l;
     if (turn < 0) negative = l;
     if (turn != 0) continue;
-    const int along = sigma * cross(normal<Rational>(l), normal<Rational>(i)).sign();
+    const int along = sigma * normal_cross_sign(l, i);
     if (along < 0) return false;
     row_vanishes[l] = along == 0;  // both normals on one line
   }
   return positive < 0 || negative < 0 || sigma * opening_of_third(i, positive, negative) > 0;
+}
+
+/// The sign of n_i x n_j.
+int Posture::normal_cross_sign(int i, int j) const {
+  if (surely_parallel(given_normal_[i], given_normal_[j])) return 0;
+  const double bound = 4 * unit_roundoff + underflow_slack;  // components of at most 1: 2 u of 2
+  return certain_sign(cross(normal_[i], normal_[j]), bound, [&] { return cross(normal<Rational>(i), normal<Rational>(j)); });
 }
 
 void Posture::list_slides(int i) {
@@ -303,7 +316,7 @@ void Posture::list_slides(int i) {
 
 /// The sign of N_l . (N_i x N_j).
 int Posture::opening_of_third(int i, int j, int l) const {
-  if (same(given_normal_[i], given_normal_[j]) && same(given_normal_[j], given_normal_[l])) return 0;
+  if (surely_parallel(given_normal_[i], given_normal_[j]) && surely_parallel(given_normal_[i], given_normal_[l])) return 0;
   const double value = opening_of_slide(offset<double>(i, j), offset<double>(i, l), normal_[i], normal_[j], normal_[l]);
   // Two products of cross products (3 u of the spread from contact i, at most 2 spread, and 2 u of 2): 8 u of 8 spread.
   const double bound = 128 * unit_roundoff * spread_ + underflow_slack;
@@ -318,7 +331,7 @@ int Posture::opening_of_third(int i, int j, int l) const {
 void Posture::list_two_slides(int i, int j) {
   const int slide_i = turn_sign_[i][j];
   const int slide_j = -turn_sign_[j][i];
-  const bool same_line = slide_i == 0 && slide_j == 0 && cross(normal<Rational>(i), normal<Rational>(j)) == 0;
+  const bool same_line = slide_i == 0 && slide_j == 0 && normal_cross_sign(i, j) == 0;
   if (same_line) return;  // c = 0
   const int third = count_ == 3 ? opening_of_third(i, j, 3 - i - j) : 0;
   for (int sigma_i : {1, -1})

@@ -62,6 +62,7 @@ class Posture {
   bool can_slide(int i, int sigma, std::array<bool, 3>& row_vanishes) const;
   void list_slides(int i);
   int opening_of_third(int i, int j, int l) const;
+  int normal_cross_sign(int i, int j) const;
   void list_two_slides(int i, int j);
   void add_roll(int i);
   ModeSpec& add_mode(ModeSpec::Kind kind);

@@ -145,22 +145,35 @@ Row<double> inertia_times_normal_cross(const Frame<double>& frame, int i, int j)
   return {c.p, c.one, frame.rho2 * c.q};
 }
 
+/// One of the mode's rows (its direction along c, the force at i, the force at j) negative on all of W along the line, by
+/// Bernstein coefficients: z is linear in lambda, M c too, their products quadratic.
 bool two_slides_excluded(const ModeSpec& spec, const Frame<double>& a, const Frame<double>& b, const DisturbanceBox& box,
                          const Guard& guard) {
-  const int edge_i = loaded_edge(spec.sigma_i), edge_j = loaded_edge(spec.sigma_j);
-  const Row<double> za = force_pair(a.at[spec.i], edge_i, a.at[spec.j], edge_j);
-  const Row<double> ca = inertia_times_normal_cross(a, spec.i, spec.j);
-  const double da = dot(za, ca);
-  const double sign = (da > 0 ? 1.0 : -1.0) * spec.sense;
-  const auto wrong_way = [&](const Row<double>& z) {
-    return sign * z.one - box.kappa * std::abs(z.p) - box.nu * std::abs(z.q) > guard.length;
+  const int i = spec.i, j = spec.j, edge_i = loaded_edge(spec.sigma_i), edge_j = loaded_edge(spec.sigma_j);
+  const Row<double> za = force_pair(a.at[i], edge_i, a.at[j], edge_j), ca = inertia_times_normal_cross(a, i, j);
+  const double da = dot(za, ca), sign = da > 0 ? 1 : -1, least = guard.denominator;
+  if (!(std::abs(da) > least)) return false;
+  const auto negative = [&](const Row<double>& row, double error) {
+    return sign * row.one + box.kappa * std::abs(row.p) + box.nu * std::abs(row.q) < -error;
   };
-  if (spec.sense == 0 || !(std::abs(da) > guard.denominator) || !wrong_way(za)) return false;
-  if (&a == &b) return true;
-  const Row<double> zb = force_pair(b.at[spec.i], edge_i, b.at[spec.j], edge_j);
-  const Row<double> cb = inertia_times_normal_cross(b, spec.i, spec.j);
-  const double least = guard.denominator, positive = da > 0 ? 1 : -1;
-  return positive * dot(zb, cb) > least && positive * (dot(za, cb) + dot(zb, ca)) > 2 * least && wrong_way(zb);
+  const double sense = -spec.sense;
+  const auto direction = [&](const Row<double>& z) { return Row<double>{sense * z.p, sense * z.one, sense * z.q}; };
+  const bool by_direction = spec.sense != 0 && negative(direction(za), guard.length);
+  if (&a == &b && by_direction) return true;
+  const Row<double> zb = force_pair(b.at[i], edge_i, b.at[j], edge_j), cb = inertia_times_normal_cross(b, i, j);
+  if (!(sign * dot(zb, cb) > least && sign * (dot(za, cb) + dot(zb, ca)) > 2 * least)) return false;
+  if (by_direction && negative(direction(zb), guard.length)) return true;
+  const auto by_force = [&](int k, int edge, double order) {  // order: s_j x M c, but M c x s_i
+    const auto row = [&](const Frame<double>& frame, const Row<double>& c) {
+      const Row<double> cross_product = force_cross(frame.at[k], edge, c);
+      return Row<double>{order * cross_product.p, order * cross_product.one, order * cross_product.q};
+    };
+    if (!negative(row(a, ca), guard.area)) return false;
+    if (&a == &b) return true;
+    const Row<double> ab = row(a, cb), ba = row(b, ca);
+    return negative({ab.p + ba.p, ab.one + ba.one, ab.q + ba.q}, 2 * guard.area) && negative(row(b, cb), guard.area);
+  };
+  return by_force(j, edge_j, 1) || by_force(i, edge_i, -1);
 }
 
 /// A roll by its direction: alpha has the sign of -R . v whatever the force, which acts at x_i; R is linear along the line.

@@ -5,8 +5,8 @@
 //    Z = N_l + z N_i with Z . M^-1 v > 0 at the corners of W and Z . M^-1 s < 0 for both edges of cone i excludes them together
 //    (dual_certificate.hpp). In words: whatever the force at i, the body presses l into the ground. A single slide is also
 //    excluded by its own direction, Z = sigma T_i + z N_i, a roll by the sense of its rotation, and all contacts breaking by Z = N_l + z N_i with z >= 0.
-// 2. Two slides at i and j move along the twist c only, xi = -(z . v / D) c: excluded where D keeps its sign and z . v has
-//    the wrong one at the corners of W at both ends (z is linear along the line).
+// 2. Two slides at i and j move along the twist c only, xi = -(z . v / D) c: excluded where D keeps its sign and the direction along
+//    c, or the force at i or at j, has the wrong sign on all of W.
 #pragma once
 
 #include <cstdint>

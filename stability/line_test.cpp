@@ -97,9 +97,10 @@ class RecursiveScreen {
 
 }  // namespace
 
-std::uint32_t LineQuery::screened() const {
+std::uint32_t LineQuery::screened(double s) const {
   constexpr int halvings = 6;
-  const RecursiveScreen screen(posture_, from_, to_, radius_, box_);
+  const DisturbanceBox box{s * box_.kappa, s * box_.nu};
+  const RecursiveScreen screen(posture_, from_, to_, radius_, box);
   const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << posture_.modes().size()) - 1);
   return screen.excluded(0, screen.frame(0), 1, screen.frame(1), all, halvings);
 }

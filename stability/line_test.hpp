@@ -25,8 +25,8 @@ class LineQuery {
  public:
   LineQuery(const Posture& posture, const Eigen::Vector2d& from, const Eigen::Vector2d& to, const DisturbanceBox& box);
 
-  /// Modes that shared certificates exclude on the whole line (screen.hpp).
-  std::uint32_t screened() const;
+  /// Modes that shared certificates exclude on the whole line for the box scaled by s (screen.hpp).
+  std::uint32_t screened(double s = 1) const;
   /// Decided for the doubles given: doubles with error bounds first, rationals where these cannot tell.
   LineMode feasible(const ModeSpec& spec) const;
   /// Up to which lambda, from `lambda` on, the mode is proved infeasible for the box scaled by s. Doubles only.

@@ -194,18 +194,17 @@ class LineMinimum {
     return mode_scale(posture_.frame(at(lambda)), spec, box_, infinity).s;
   }
 
+  /// Modes that cannot lower a bound.
+  std::uint32_t not_below(double best) const { return query_.screened(confirmed_level(best)); }
+
   /// Lowers `best` to the mode's least scale on the line, if that is lower. Where certificates at the level of the bound
   /// stop, the scale is evaluated: lower than the bound, it is followed downhill to a local minimum, which becomes the bound.
   void lower(const ModeSpec& spec, double& best, double& best_lambda) const {
-    constexpr double level = 1 - 1e-7;     // certificates are strict: confirm slightly below the bound
     constexpr double least_step = 1e-9;    // in lambda, where doubles can neither certify nor find a lower value
     constexpr int max_rounds = 1000;
-    consider(spec, 0, best, best_lambda);
-    consider(spec, 1, best, best_lambda);
     double lambda = 0;
     for (int round = 0; round < max_rounds && lambda < 1 && best > 0; ++round) {
-      const double bound = std::min(best * level, greatest_level);
-      lambda = query_.excluded_up_to(spec, bound, lambda);
+      lambda = query_.excluded_up_to(spec, confirmed_level(best), lambda);
       if (lambda >= 1) return;
       const double probe = std::min(1.0, lambda + least_step);
       if (std::min(scale(spec, lambda), scale(spec, probe)) < best) descend(spec, lambda, best, best_lambda);
@@ -215,7 +214,10 @@ class LineMinimum {
 
  private:
   // Factors beyond this are confirmed at this level only: larger disturbances exceed the body's weight by far.
-  static constexpr double greatest_level = 1e12;
+  static double confirmed_level(double best) {
+    constexpr double strictness = 1 - 1e-7, greatest_level = 1e12;  // certificates are strict: slightly below the bound
+    return std::min(best * strictness, greatest_level);
+  }
 
   void consider(const ModeSpec& spec, double lambda, double& best, double& best_lambda) const {
     const double value = scale(spec, lambda);
@@ -267,10 +269,14 @@ class LineMinimum {
 }  // namespace
 
 LineSafetyFactor RobustOracle::line_safety_factor(const Vector2d& from, const Vector2d& to) const {
-  LineSafetyFactor result = line_equilibrium_factor(from, to);
+  const SafetyFactor start = safety_factor(from), end = safety_factor(to);
+  LineSafetyFactor result = end.value < start.value ? LineSafetyFactor{end, 1} : LineSafetyFactor{start, 0};
   const LineMinimum search(posture_, from, to, box_);
+  std::uint32_t excluded = result.least.value > 0 ? search.not_below(result.least.value) : ~0u;
   for (const ModeSpec& spec : posture_.modes()) {
-    if (result.least.value == 0) return result;
+    const bool screened = excluded & 1;
+    excluded >>= 1;
+    if (screened || result.least.value == 0) continue;
     double best = result.least.value, lambda = result.lambda;
     search.lower(spec, best, lambda);
     if (!(best < result.least.value)) continue;

@@ -282,8 +282,10 @@ bool RefineWindow::within_reach() const {
 }
 
 bool RefineWindow::rules_hold() const {
-  for (int k = first_; k <= last_; ++k)
-    if (gaits::broken_stance_rule(scene_, plan_.stances[k])) return false;
+  for (int k = first_; k <= last_; ++k) {
+    const gaits::Stance& stance = plan_.stances[k];
+    if (k == 0 ? gaits::broken_start_rule(scene_, stance) : gaits::broken_stance_rule(scene_, stance)) return false;
+  }
   // One transfer more: a foot that was moved and lifted is where the next swing begins.
   for (int k = first_transfer(); k <= std::min(last_transfer() + 1, plan_.steps() - 1); ++k) {
     const gaits::Transfer& transfer = plan_.transfers[k];

@@ -30,6 +30,7 @@ struct Start {
 struct Goal {
   std::optional<std::pair<double, double>> com_x, com_y;
   bool contains(const Eigen::Vector2d& com) const;
+  double distance(const Eigen::Vector2d& com) const;  ///< [m]; 0 inside
 };
 
 struct SearchDefaults {

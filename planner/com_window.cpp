@@ -34,6 +34,12 @@ Eigen::Vector2d point_on_line(const Polygon& polygon, double u) {
 
 }  // namespace
 
+Polygon clip_to_half_plane(const Polygon& polygon, const Eigen::Vector2d& direction, double bound) {
+  Polygon clipped = polygon, scratch;
+  clip(clipped, direction, bound, scratch);
+  return clipped;
+}
+
 Polygon reach_window(const gaits::Feet& feet, double reach_max) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Eigen::Vector2d low(-infinity, -infinity), high(infinity, infinity);

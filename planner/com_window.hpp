@@ -15,6 +15,9 @@ using Polygon = std::vector<Eigen::Vector2d>;  ///< convex, counter-clockwise [m
 /// It circumscribes: the corners, and the discs of reach_min, are for the caller to reject.
 Polygon reach_window(const gaits::Feet& feet, double reach_max);
 
+/// The part of a polygon where direction . com <= bound; empty if there is none. May be a line or a point.
+Polygon clip_to_half_plane(const Polygon& polygon, const Eigen::Vector2d& direction, double bound);
+
 /// The part of a polygon in which the goal is reached; empty if there is none. May be a line or a point.
 Polygon clip_to_goal(const Polygon& polygon, const gaits::Goal& goal);
 

@@ -69,6 +69,21 @@ bool has_first_step(StepProposals& proposals, const Node& node) {
   return false;
 }
 
+/// Proof that no COM within reach of two feet balances: limits of reach and balance are drawn out by more than any
+/// rounding, so that a single COM at the very limit is not denied.
+bool no_com_balances(const gaits::Scene& scene, const gaits::Feet& feet, const stability::RobustOracle& oracle) {
+  constexpr double margin = gaits::limit_margin;
+  double extent = scene.robot.reach_max, steepest = 0;
+  for (const auto& foot : feet)
+    if (foot) extent = std::max(extent, foot->position.cwiseAbs().maxCoeff());
+  const auto planes = oracle.equilibrium_half_planes();
+  for (const auto& plane : planes) steepest = std::max(steepest, plane.normal.norm());
+  Polygon left = reach_window(feet, scene.robot.reach_max + margin * extent);
+  for (const auto& plane : planes)
+    left = clip_to_half_plane(left, -plane.normal, plane.offset + margin * extent * steepest);
+  return left.empty();
+}
+
 /// First stances on two given feet with a COM of our choice: the safest few that a first step leads on from.
 void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& choice) {
   const gaits::Scene& scene = proposals.scene();
@@ -76,8 +91,11 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   const Polygon window = reach_window(stance.feet, proposals.robot().reach_max);
   const Polygon polygon = window.empty() ? window : oracle.equilibrium_polygon(window);
   if (polygon.empty()) {
-    choice.fault += fmt::format("{}no COM within reach of feet {} balances every disturbance",
-                                choice.fault.empty() ? "" : "; ", legs_of(stance));
+    const bool proven = no_com_balances(scene, stance.feet, oracle);
+    choice.decided = choice.decided && proven;
+    choice.fault += fmt::format("{}no COM within reach of feet {} {} every disturbance",
+                                choice.fault.empty() ? "" : "; ", legs_of(stance),
+                                proven ? "balances" : "was found to balance");
     return;
   }
   const Polygon in_goal = clip_to_goal(polygon, scene.goal);
@@ -142,13 +160,6 @@ StartChoice choose_start(StepProposals& proposals) {
                         [&](const Node& node) { return scene.goal.contains(node.com); });
   if (!choice.nodes.empty()) choice.fault.clear();
   return choice;
-}
-
-std::optional<std::string> start_fault(const gaits::Scene& scene) {
-  StepProposals proposals(scene);
-  const StartChoice choice = choose_start(proposals);
-  if (choice.fault.empty() || !choice.decided) return std::nullopt;
-  return choice.fault;
 }
 
 namespace {

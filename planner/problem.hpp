@@ -2,7 +2,7 @@
 // goal at all. What the scene gives is judged exactly; what it leaves open is chosen by even, deterministic sampling.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,16 +13,14 @@
 namespace surefoot::planner {
 
 struct StartChoice {
-  std::vector<Node> nodes;  ///< legal first stances, the safest first; those in the goal before all others
-  std::string fault;        ///< why there is none; empty otherwise
-  bool decided = false;     ///< the fault holds for every choice left open (otherwise: none was found)
+  /// Legal first stances: those in the goal before all others, then by pair of feet (legs 1 and 2, 1 and 3, 2 and 3),
+  /// the safest of each pair first.
+  std::vector<Node> nodes;
+  std::string fault;     ///< why there is none, with the rule and the numbers; empty otherwise
+  bool decided = false;  ///< the fault is proven for every choice left open: bad input (otherwise: none was found)
 };
 
 StartChoice choose_start(StepProposals& proposals);
-
-/// The fault of a start that is bad input: what it gives breaks a rule, whatever is chosen for the rest. Says which rule,
-/// with the numbers.
-std::optional<std::string> start_fault(const gaits::Scene& scene);
 
 struct GoalLook {
   bool standable = false;

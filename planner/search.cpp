@@ -39,10 +39,11 @@ std::vector<Turn> turns_of(const std::string& planner) {
   throw std::invalid_argument("unknown planner '" + planner + "'");
 }
 
-/// Iterations are meant for a journey of ten times the reach; a longer one takes more.
-double length_factor(const gaits::Scene& scene) {
-  const Eigen::Vector2d size = scene.terrain.bounds().sizes();
-  return std::max(1.0, size.norm() / (10 * scene.robot.reach_max));
+/// Iterations are meant for a journey of ten times the reach; a longer one takes more, up to a budget that no machine
+/// gets through in a day.
+double length_factor(const gaits::Scene& scene, const Eigen::Vector2d& start) {
+  constexpr double usual = 10, greatest = 1e5;
+  return std::clamp(scene.goal.distance(start) / (usual * scene.robot.reach_max), 1.0, greatest);
 }
 
 /// Seeds of the turns: the scene's own first, then far from each other, within the range of OMPL's generator.
@@ -102,7 +103,7 @@ class Search {
   }
 
   std::vector<Node> take_turns(const std::vector<Node>& starts) {
-    const double factor = length_factor(scene_);
+    const double factor = length_factor(scene_, starts.front().com);
     std::uint64_t iterations = 0;
     for (std::size_t k = 0; k < turns_.size() && Clock::now() < deadline_; ++k) {
       OmplRun run;

@@ -3,7 +3,6 @@
 #include <ompl/base/StateSampler.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace surefoot::planner {
 
@@ -40,11 +39,11 @@ class TargetSampler : public ob::StateSampler {
   }
   void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override {
     const Eigen::Vector2d centre = StanceSpace::of(near).node.com;
-    set(state, centre + Eigen::Vector2d(rng_.uniformReal(-distance, distance), rng_.uniformReal(-distance, distance)));
+    set(state, centre + Eigen::Vector2d{rng_.uniformReal(-distance, distance), rng_.uniformReal(-distance, distance)});
   }
   void sampleGaussian(ob::State* state, const ob::State* mean, double deviation) override {
     const Eigen::Vector2d centre = StanceSpace::of(mean).node.com;
-    set(state, centre + Eigen::Vector2d(rng_.gaussian(0, deviation), rng_.gaussian(0, deviation)));
+    set(state, centre + Eigen::Vector2d{rng_.gaussian(0, deviation), rng_.gaussian(0, deviation)});
   }
 
  private:
@@ -126,13 +125,6 @@ void StanceSpace::registerProjections() {
   registerDefaultProjection(std::make_shared<ComProjection>(this, scene_->robot.reach_max / 3));
 }
 
-double distance_to_goal(const gaits::Goal& goal, const Eigen::Vector2d& com) {
-  const auto outside = [](const std::optional<std::pair<double, double>>& interval, double value) {
-    return interval ? std::max({interval->first - value, value - interval->second, 0.0}) : 0.0;
-  };
-  return std::hypot(outside(goal.com_x, com.x()), outside(goal.com_y, com.y()));
-}
-
 bool ComGoal::isSatisfied(const ob::State* state) const { return goal_->contains(StanceSpace::of(state).node.com); }
 
 bool ComGoal::isSatisfied(const ob::State* state, double* distance) const {
@@ -141,7 +133,7 @@ bool ComGoal::isSatisfied(const ob::State* state, double* distance) const {
 }
 
 double ComGoal::distanceGoal(const ob::State* state) const {
-  return distance_to_goal(*goal_, StanceSpace::of(state).node.com);
+  return goal_->distance(StanceSpace::of(state).node.com);
 }
 
 void ComGoal::sampleGoal(ob::State* state) const {
@@ -187,7 +179,7 @@ void StepSampler::sampleNext(oc::Control* control, const oc::Control*, const ob:
     const StepCode code = random_code(rng_);
     if (k == 0) write(code, control);
     if (!proposals_->propose(from, code, next)) continue;
-    if (const double distance = distance_to_goal(goal, next.com); distance < best) {
+    if (const double distance = goal.distance(next.com); distance < best) {
       best = distance;
       write(code, control);
     }

@@ -11,6 +11,8 @@
 #include <ompl/control/SpaceInformation.h>
 #include <ompl/control/spaces/RealVectorControlSpace.h>
 
+#include <limits>
+
 #include "planner/node.hpp"
 #include "planner/step_proposals.hpp"
 
@@ -74,9 +76,6 @@ class ComGoal : public ompl::base::GoalSampleableRegion {
   double choice_penalty_;  ///< [m]
   mutable ompl::RNG rng_;
 };
-
-/// Distance [m] of a COM from the goal interval.
-double distance_to_goal(const gaits::Goal& goal, const Eigen::Vector2d& com);
 
 /// What planners that direct their steps (RRT, EST) call: of several codes the one whose step gets nearest the target.
 class DirectedSteps : public ompl::control::DirectedControlSampler {

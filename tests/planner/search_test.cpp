@@ -179,6 +179,30 @@ TEST_CASE("start feet that no COM balances on are bad input", "[search]") {
   CHECK_THROWS_WITH(run(scene), Catch::Contains("slide.yaml: start: no COM within reach of feet 1 and 2"));
 }
 
+TEST_CASE("start feet that one COM alone can reach are not called bad input", "[search]") {
+  // Feet 2 reach_max apart on facing slopes; the COM halfway holds as a start.
+  const std::string slopes =
+      "  friction: 2\n  chains:\n"
+      "    - vertices: [[-1, 1], [0.25, -0.25], [0.25, -2], [1.55, -2], [1.55, -0.25], [2.8, 1]]\n";
+  const auto given = gaits::parse_scene(
+      scene_text(slopes, "{feet: [{x: 0}, {x: 1.8}, null], com: [0.9, 0]}", "{com_x: [1.5, 2]}"), "slopes");
+  planner::StepProposals proposals(given);
+  REQUIRE(planner::choose_start(proposals).nodes.size() == 1);
+  const auto open =
+      gaits::parse_scene(scene_text(slopes, "{feet: [{x: 0}, {x: 1.8}, null]}", "{com_x: [1.5, 2]}"), "slopes");
+  const auto plan = run(open);
+  CHECK(plan.status == gaits::Status::no_plan_found);
+  CHECK_THAT(plan.reason, Catch::StartsWith("start is not stable: no COM within reach of feet 1 and 2 was found"));
+}
+
+TEST_CASE("terrain that is farther away than any journey changes nothing", "[search]") {
+  const std::string far = "    - vertices: [[7, 1.0e+20], [8, 1.0e+20]]\n";
+  const auto scene = gaits::parse_scene(scene_text(level + far, three_feet, "{com_x: [2, 2.4]}"), "far");
+  const std::string name = GENERATE("auto", "RRT", "KPIECE1", "EST", "SST");
+  CAPTURE(name);
+  require_holds(scene, run(scene, name));
+}
+
 TEST_CASE("a goal that cannot be stood on is said so and not searched for", "[search]") {
   SECTION("no terrain in reach: proven") {
     const auto plan = run(gaits::parse_scene(scene_text(level, three_feet, "{com_x: [8, 9]}"), "void"));

@@ -20,10 +20,4 @@ Feet feet_during(const Stance& from, const Transfer& transfer) {
   return feet;
 }
 
-Feet feet_after(const Stance& from, const Transfer& transfer) {
-  Feet feet = feet_during(from, transfer);
-  feet.at(static_cast<std::size_t>(transfer.lift)).reset();
-  return feet;
-}
-
 }  // namespace surefoot::gaits

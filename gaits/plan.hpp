@@ -56,7 +56,5 @@ struct Plan {
 
 /// The three planted feet during a transfer.
 Feet feet_during(const Stance& from, const Transfer& transfer);
-/// The feet planted after it.
-Feet feet_after(const Stance& from, const Transfer& transfer);
 
 }  // namespace surefoot::gaits

@@ -1,8 +1,10 @@
 #include "gaits/rules.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <limits>
+#include <span>
 
 namespace surefoot::gaits {
 
@@ -195,15 +197,6 @@ std::optional<Rule> broken_transfer_rule(const Scene& scene, const Stance& from,
   if (!is_stable(scene, oracle_of(scene, feet_during(from, transfer)), from.com, com_to))
     return Rule::transfer_stability;
   return std::nullopt;
-}
-
-std::optional<Foothold> swing_origin(const Scene& scene, const Plan& plan, int k) {
-  const Transfer& transfer = plan.transfers.at(static_cast<std::size_t>(k));
-  const auto leg = static_cast<std::size_t>(transfer.leg);
-  if (k == 0) return scene.start.feet.at(leg);
-  // The leg in the air at stance k is the one that transfer k - 1 lifted; it stood there during that transfer.
-  return feet_during(plan.stances.at(static_cast<std::size_t>(k) - 1), plan.transfers[static_cast<std::size_t>(k) - 1])
-      .at(leg);
 }
 
 void rate(const Scene& scene, Plan& plan) {

@@ -1,13 +1,14 @@
 // The rules of a 2-3-2 step, as the search asks them: cheap ones first, the first broken rule is the answer.
-// (The independent verifier, verifier.hpp, asks the same rules by other means and reports all that are broken.)
+// (The verifier, verifier.hpp, asks the same rules by other means and reports all that are broken. It shares with this
+// file the names of the rules, the terrain's segments and the stability oracle; nothing else.)
 //
 // Limits are closed: a foot at exactly reach_max is within reach. What these rules accept, the verifier accepts too:
 // its slack is wider than theirs. Whoever chooses a COM should choose it for drawn_in(robot), so that no reader of the
 // plan needs any slack at all.
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <string>
 
 #include "gaits/plan.hpp"
 #include "gaits/scene.hpp"
@@ -25,6 +26,7 @@ enum class Rule {
   transfer_stability,
   gait,  ///< which leg is placed and lifted, continuity, start, goal
 };
+constexpr std::size_t rule_count = static_cast<std::size_t>(Rule::gait) + 1;
 const char* to_string(Rule rule);
 
 /// Rounding allowed at the limits of reach and clearance, relative to reach_max: a few units in the last place of a
@@ -85,10 +87,6 @@ std::optional<Rule> broken_transfer_rule(const Scene& scene, const Stance& from,
                                          const Eigen::Vector2d& com_to,
                                          const std::optional<terrain::Foothold>& swing_from,
                                          const stability::RobustOracle& oracle);
-
-/// Where the leg that is placed by transfer `k` of a plan was lifted from; nothing if it has been in the air from the
-/// start.
-std::optional<terrain::Foothold> swing_origin(const Scene& scene, const Plan& plan, int k);
 
 /// Fills in safety factors and limits of every stance and transfer, and of the plan.
 void rate(const Scene& scene, Plan& plan);

@@ -1,5 +1,7 @@
 #include "gaits/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,22 @@ double Goal::distance(const Eigen::Vector2d& com) const {
     return interval ? std::max({interval->first - value, value - interval->second, 0.0}) : 0.0;
   };
   return std::hypot(outside(com_x, com.x()), outside(com_y, com.y()));
+}
+
+const std::vector<std::string>& planner_names() {
+  static const std::vector<std::string> names{"auto", "RRT", "KPIECE1", "EST", "SST"};
+  return names;
+}
+
+const std::vector<std::string>& objective_names() {
+  static const std::vector<std::string> names{"steps", "safety", "distance"};
+  return names;
+}
+
+std::string not_known(std::string_view what, std::string_view word, const std::vector<std::string>& words) {
+  const std::string near = terrain::near_miss(word, words);
+  if (!near.empty()) return fmt::format("{}: \"{}\" is not known; did you mean \"{}\"?", what, word, near);
+  return fmt::format("{}: \"{}\" is not known; expected one of: {}", what, word, fmt::join(words, ", "));
 }
 
 stability::Contact contact_at(const terrain::Foothold& foothold) {

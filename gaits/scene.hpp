@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "gaits/robot.hpp"
 #include "stability/contact.hpp"
@@ -24,6 +26,7 @@ struct Start {
   std::array<std::optional<terrain::Foothold>, leg_count> feet;
   std::optional<std::pair<int, int>> support;  ///< legs (0..2, first < second) that carry the first stance
   std::optional<Eigen::Vector2d> com;          ///< [m]
+  std::string place;                           ///< where the file gives it, "file:line:column"; for messages
 };
 
 /// COM intervals [m], ends included; at least one is given.
@@ -32,6 +35,12 @@ struct Goal {
   bool contains(const Eigen::Vector2d& com) const;
   double distance(const Eigen::Vector2d& com) const;  ///< [m]; 0 inside
 };
+
+constexpr std::uint32_t greatest_seed = 2147483562;  ///< of OMPL's generator; 0 acts as 1 there, so it is refused
+const std::vector<std::string>& planner_names();     ///< "auto", "RRT", "KPIECE1", "EST", "SST"
+const std::vector<std::string>& objective_names();   ///< "steps", "safety", "distance"
+/// The message for a word that is none of `words`: names the nearest, or all.
+std::string not_known(std::string_view what, std::string_view word, const std::vector<std::string>& words);
 
 struct SearchDefaults {
   std::uint32_t seed = 1;

@@ -19,15 +19,11 @@ using terrain::Node;
 using terrain::Terrain;
 
 constexpr std::int64_t format_version = 1;
-constexpr std::int64_t greatest_seed = 2147483562;  // of the random number generator used by the search
 
-/// One of `words`, or an error that names the nearest, or all.
 std::string one_of(const Node& node, std::string_view what, const std::vector<std::string>& words) {
   std::string word = node.text(what);
   if (std::find(words.begin(), words.end(), word) != words.end()) return word;
-  const std::string near = terrain::near_miss(word, words);
-  if (!near.empty()) node.fail(fmt::format("{}: \"{}\" is not known; did you mean \"{}\"?", what, word, near));
-  node.fail(fmt::format("{}: \"{}\" is not known; expected one of: {}", what, word, fmt::join(words, ", ")));
+  node.fail(not_known(what, word, words));
 }
 
 /// The bound that terrain sets for coordinates holds for every length, so that no square overflows.
@@ -210,6 +206,7 @@ void check_start_reach(const Node& node, const Start& start, const Robot& robot)
 Start read_start(const Node& node, const Terrain& ground, const Robot& robot) {
   node.allow_only({"feet", "support", "com"}, "start");
   Start start;
+  start.place = node.where();
   const Node& feet = node.require("feet", "start");
   const auto& legs = feet.items("feet", leg_count);
   int planted = 0;
@@ -253,10 +250,10 @@ SearchDefaults read_search(const Node& node) {
   }
   if (const Node* limit = node.find("time_limit")) search.time_limit = limit->positive("time_limit");
   if (const Node* planner = node.find("planner")) {
-    search.planner = one_of(*planner, "planner", {"auto", "RRT", "KPIECE1", "EST", "SST"});
+    search.planner = one_of(*planner, "planner", planner_names());
   }
   if (const Node* objective = node.find("objective")) {
-    search.objective = one_of(*objective, "objective", {"steps", "safety", "distance"});
+    search.objective = one_of(*objective, "objective", objective_names());
   }
   return search;
 }

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@
 namespace {
 
 using namespace surefoot::planner;
+using surefoot::gaits::objective_names;
 using surefoot::terrain::InputError;
 using surefoot::terrain::near_miss;
 
@@ -52,7 +54,7 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   plan->add_option("--time-limit", a.time_limit, "seconds until the search gives up (default: the scene's, else 10)")
       ->type_name("S");
   plan->add_option("--planner", a.planner, fmt::format("{}", fmt::join(planner_names(), ", ")))->type_name("NAME");
-  plan->add_option("--objective", a.objective, "steps, safety or distance")->type_name("NAME");
+  plan->add_option("--objective", a.objective, fmt::format("{}", fmt::join(objective_names(), ", ")))->type_name("NAME");
   plan->add_flag("--no-refine", a.no_refine, "leave the plan as the search found it");
   plan->add_flag("--explain", a.explain, "say what limits each step, and what was left out and why");
   auto* quiet = plan->add_flag("-q,--quiet", a.quiet, "nothing but the result: no progress, no notes");

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "gaits/plan_io.hpp"
@@ -20,7 +21,7 @@ namespace surefoot::planner {
 
 namespace {
 
-constexpr std::int64_t greatest_seed = 2147483562;  // of OMPL's generator; 0 acts as 1 there, so it is refused
+using Clock = std::chrono::steady_clock;
 
 /// `word` among `words`, upper or lower case alike. Throws, with the near miss, if it is none of them.
 std::string one_of(const std::string& what, const std::string& word, const std::vector<std::string>& words) {
@@ -30,31 +31,25 @@ std::string one_of(const std::string& what, const std::string& word, const std::
   };
   const auto found = std::find_if(words.begin(), words.end(), same);
   if (found != words.end()) return *found;
-  const std::string meant = terrain::near_miss(word, words);
-  throw terrain::InputError(fmt::format("{}: found '{}', expected one of {}{}", what, word, fmt::join(words, ", "),
-                                        meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
+  throw terrain::InputError(gaits::not_known(what, word, words));
 }
 
-/// The scene's defaults, overridden by the command line. The scene says nothing wrong about numbers; its words are
-/// looked at here, where the planners are known.
+/// The scene's defaults, which were checked when it was read, overridden by the command line.
 SearchOptions search_options(const PlanArguments& arguments, const gaits::Scene& scene) {
   SearchOptions options{.seed = scene.search.seed,
                         .time_limit = arguments.time_limit.value_or(scene.search.time_limit),
-                        .planner = {},
-                        .objective = {}};
+                        .planner = scene.search.planner,
+                        .objective = scene.search.objective};
   if (arguments.seed) {
-    if (*arguments.seed < 1 || *arguments.seed > greatest_seed)
-      throw terrain::InputError(fmt::format("--seed: found {}, expected 1 to {}", *arguments.seed, greatest_seed));
+    if (*arguments.seed < 1 || *arguments.seed > gaits::greatest_seed)
+      throw terrain::InputError(
+          fmt::format("--seed: found {}, expected 1 to {}", *arguments.seed, gaits::greatest_seed));
     options.seed = static_cast<std::uint32_t>(*arguments.seed);
   }
   if (!std::isfinite(options.time_limit) || options.time_limit <= 0)
     throw terrain::InputError(fmt::format("--time-limit: found {}, expected seconds > 0", options.time_limit));
-  options.planner = arguments.planner ? one_of("--planner", *arguments.planner, planner_names())
-                                      : one_of(scene.file + ": search.planner", scene.search.planner, planner_names());
-  const std::vector<std::string> objectives{"steps", "safety", "distance"};
-  options.objective = arguments.objective
-                          ? one_of("--objective", *arguments.objective, objectives)
-                          : one_of(scene.file + ": search.objective", scene.search.objective, objectives);
+  if (arguments.planner) options.planner = one_of("--planner", *arguments.planner, planner_names());
+  if (arguments.objective) options.objective = one_of("--objective", *arguments.objective, gaits::objective_names());
   return options;
 }
 
@@ -102,19 +97,21 @@ Outputs open_outputs(const PlanArguments& arguments) {
 }
 
 /// The refined plan where it holds, the plan as found where only that holds; `fault` where neither does.
-gaits::Plan refine_and_verify(const gaits::Scene& scene, const gaits::Plan& found, bool refine_it, bool verbose,
-                              std::string& fault) {
+gaits::Plan refine_and_verify(const gaits::Scene& scene, const gaits::Plan& found, const PlanArguments& arguments,
+                              Clock::time_point deadline, std::string& fault) {
   const auto refusal = [&scene](const gaits::Plan& plan) -> std::string {
     const gaits::Verification verification = gaits::verify(scene, plan);
     if (verification.holds()) return {};
     const gaits::Fault& first = verification.faults.front();
     return fmt::format("{}: {}: {}", first.place, gaits::to_string(first.rule), first.message);
   };
-  if (refine_it) {
-    gaits::Plan refined = refine(scene, found);
+  if (!arguments.no_refine) {
+    RefineOptions options;
+    options.deadline = deadline;
+    gaits::Plan refined = refine_unverified(scene, found, options);
     const std::string refused = refusal(refined);
     if (refused.empty()) return refined;
-    if (verbose) note("the refined plan does not hold and is dropped: " + refused);
+    if (arguments.verbose) note("the refined plan does not hold and is dropped: " + refused);
   }
   fault = refusal(found);
   return found;
@@ -165,17 +162,15 @@ int run_plan(const PlanArguments& arguments) {
                      scene.terrain.segments().size(), options.planner, options.seed, options.time_limit));
   if (!arguments.quiet)
     show_progress(fmt::format("searching ({}, at most {} s) ...", options.planner, options.time_limit));
-  const auto begin = std::chrono::steady_clock::now();
-  const auto elapsed = [begin] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
+  const auto begin = Clock::now();
+  const auto elapsed = [begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   gaits::Plan plan = search(scene, options);
   show_progress("");
   if (arguments.verbose)
     note(fmt::format("search: {}, {} steps, {:.3f} s", gaits::to_string(plan.status), plan.steps(), elapsed()));
   if (plan.status == gaits::Status::solved) {
     std::string fault;
-    plan = refine_and_verify(scene, plan, !arguments.no_refine, arguments.verbose, fault);
+    plan = refine_and_verify(scene, plan, arguments, deadline_after(begin, options.time_limit), fault);
     if (!fault.empty()) {
       report_error("internal: the verifier refuses the plan that was found, nothing is printed: " + fault);
       return exit_failure;

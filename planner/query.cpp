@@ -19,7 +19,6 @@ namespace {
 
 using nlohmann::json;
 using stability::Contact;
-using stability::Critical;
 using stability::RobustOracle;
 
 /// What is wrong with one line.

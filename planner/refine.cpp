@@ -1,11 +1,11 @@
 #include "planner/refine.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include "gaits/rules.hpp"
 #include "gaits/verifier.hpp"
@@ -117,9 +117,10 @@ Factors factors_of(const Scene& scene, const Plan& plan) {
   return out;
 }
 
-/// One pass in windows over the COMs whose factors are below `limit`, the weakest first. Returns whether anything
-/// changed.
-bool sweep(const Scene& scene, Plan& plan, const Timeline& timeline, const Factors& factors, double limit,
+enum class Swept { unchanged, changed, out_of_time };
+
+/// One pass in windows over the COMs whose factors are below `limit`, the weakest first.
+Swept sweep(const Scene& scene, Plan& plan, const Timeline& timeline, const Factors& factors, double limit,
            const RefineOptions& options) {
   const int coms = static_cast<int>(plan.stances.size()), first_free = scene.start.com ? 1 : 0;
   const int half = std::max(options.window, 1) / 2;
@@ -130,6 +131,7 @@ bool sweep(const Scene& scene, Plan& plan, const Timeline& timeline, const Facto
   bool changed = false;
   for (const int centre : order) {
     if (done[centre] || factors.of_com[centre] > limit) continue;
+    if (std::chrono::steady_clock::now() >= options.deadline) return Swept::out_of_time;
     const int first = std::max(first_free, std::min(centre - half, coms - std::max(options.window, 1)));
     const int last = std::min(coms - 1, first + std::max(options.window, 1) - 1);
     changed = refine_window(scene, plan, timeline, first, last, factor_cap(factors.least), options) || changed;
@@ -137,7 +139,7 @@ bool sweep(const Scene& scene, Plan& plan, const Timeline& timeline, const Facto
     for (int k = first; k <= last; ++k)
       if (k == centre || ((k > first || first == first_free) && (k < last || last == coms - 1))) done[k] = 1;
   }
-  return changed;
+  return changed ? Swept::changed : Swept::unchanged;
 }
 
 std::string why_nothing_can_rise(const Factors& factors) {
@@ -147,7 +149,7 @@ std::string why_nothing_can_rise(const Factors& factors) {
 
 }  // namespace
 
-Plan refine(const Scene& scene, const Plan& plan, const RefineOptions& options) {
+Plan refine_unverified(const Scene& scene, const Plan& plan, const RefineOptions& options) {
   if (plan.status != gaits::Status::solved || plan.stances.empty()) return plan;
   Plan out = plan;
   Factors factors = factors_of(scene, plan);
@@ -159,12 +161,22 @@ Plan refine(const Scene& scene, const Plan& plan, const RefineOptions& options) 
   const Timeline timeline(out);
   for (int i = 0; i < options.sweeps; ++i) {
     const double limit = i == 0 ? std::numeric_limits<double>::infinity() : weak_place * factors.least;
-    if (!sweep(scene, out, timeline, factors, limit, options)) break;
+    const Swept swept = sweep(scene, out, timeline, factors, limit, options);
+    if (swept == Swept::out_of_time) out.left_out.push_back({"part of the refinement", "the time limit was reached"});
+    if (swept != Swept::changed) break;
     factors = factors_of(scene, out);
   }
   gaits::rate(scene, out);
-  const bool worse = !(out.safety_factor >= *out.safety_factor_before_refinement);
-  if (!worse && gaits::verify(scene, out).holds()) return out;
+  if (out.safety_factor >= *out.safety_factor_before_refinement) return out;
+  out = plan;
+  out.safety_factor_before_refinement = plan.safety_factor;
+  return out;
+}
+
+Plan refine(const Scene& scene, const Plan& plan, const RefineOptions& options) {
+  if (plan.status != gaits::Status::solved || plan.stances.empty()) return plan;
+  Plan out = refine_unverified(scene, plan, options);
+  if (gaits::verify(scene, out).holds()) return out;
   out = plan;
   out.safety_factor_before_refinement = plan.safety_factor;
   return out;

@@ -10,6 +10,8 @@
 // trust region (refine_model.hpp), until the region is small.
 #pragma once
 
+#include <chrono>
+
 #include "gaits/plan.hpp"
 #include "gaits/scene.hpp"
 
@@ -20,9 +22,14 @@ struct RefineOptions {
   int sweeps = 2;            ///< passes over the plan
   int window = 5;            ///< neighbouring COMs that move together, >= 1
   bool leave_out = true;     ///< skip windows that cannot gain (for tests of that rule)
+  /// No window is begun later than this; what has been gained is kept. The result is the same every time only where
+  /// this is not reached.
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
 
 /// A plan that is not solved comes back as it is. Never throws on a plan that holds.
 gaits::Plan refine(const gaits::Scene& scene, const gaits::Plan& plan, const RefineOptions& options = {});
+/// The same without the last look of the verifier: for callers that verify what they get, and fall back on `plan`.
+gaits::Plan refine_unverified(const gaits::Scene& scene, const gaits::Plan& plan, const RefineOptions& options = {});
 
 }  // namespace surefoot::planner

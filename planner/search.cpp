@@ -48,7 +48,7 @@ double length_factor(const gaits::Scene& scene, const Eigen::Vector2d& start) {
 
 /// Seeds of the turns: the scene's own first, then far from each other, within the range of OMPL's generator.
 std::uint32_t turn_seed(std::uint32_t seed, std::size_t turn) {
-  constexpr std::uint64_t range = 2147483562, golden = 1327217884;  // 2^31 divided by the golden ratio
+  constexpr std::uint64_t range = gaits::greatest_seed, golden = 1327217884;  // 2^31 divided by the golden ratio
   return static_cast<std::uint32_t>((seed + range - 1 + turn * golden) % range) + 1;
 }
 
@@ -65,8 +65,7 @@ class Search {
  public:
   Search(const gaits::Scene& scene, const SearchOptions& options)
       : scene_(scene), options_(options), turns_(turns_of(options.planner)), begin_(Clock::now()), proposals_(scene) {
-    const std::chrono::duration<double> limit(std::clamp(options.time_limit, 0.0, 1e9));
-    deadline_ = begin_ + std::chrono::duration_cast<Clock::duration>(limit);
+    deadline_ = deadline_after(begin_, options.time_limit);
     plan_.scene = scene.name;
     plan_.seed = options.seed;
     plan_.planner = options.planner;
@@ -89,7 +88,10 @@ class Search {
   std::vector<Node> find() {
     const StartChoice start = choose_start(proposals_);
     if (start.nodes.empty()) {
-      if (start.decided) throw terrain::InputError(fmt::format("{}: start: {}", scene_.file, start.fault));
+      if (start.decided) {
+        const std::string& place = scene_.start.place.empty() ? scene_.file : scene_.start.place;
+        throw terrain::InputError(fmt::format("{}: start: {}", place, start.fault));
+      }
       plan_.reason = "start is not stable: " + start.fault;
       return {};
     }
@@ -134,9 +136,12 @@ class Search {
 
 }  // namespace
 
-const std::vector<std::string>& planner_names() {
-  static const std::vector<std::string> names{"auto", "RRT", "KPIECE1", "EST", "SST"};
-  return names;
+const std::vector<std::string>& planner_names() { return gaits::planner_names(); }
+
+Clock::time_point deadline_after(Clock::time_point begin, double limit) {
+  constexpr double longest = 1e9;  // [s]: thirty years, within the range of the clock
+  const std::chrono::duration<double> time(std::clamp(limit, 0.0, longest));
+  return begin + std::chrono::duration_cast<Clock::duration>(time);
 }
 
 gaits::Plan search(const gaits::Scene& scene, const SearchOptions& options) { return Search(scene, options).run(); }

@@ -3,7 +3,8 @@
 // word. That no plan was found proves nothing, unless the status is `infeasible`.
 #pragma once
 
-#include <functional>
+#include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,18 +14,22 @@
 namespace surefoot::planner {
 
 struct SearchOptions {
-  std::uint32_t seed = 1;       ///< 1 .. 2147483562
+  std::uint32_t seed = 1;       ///< 1 .. gaits::greatest_seed
   double time_limit = 10;       ///< [s] wall time; reached only when no plan is found
   std::string planner = "auto"; ///< one of planner_names()
   std::string objective = "steps";
 };
 
-/// "auto", "RRT", "KPIECE1", "EST", "SST".
+/// gaits::planner_names().
 const std::vector<std::string>& planner_names();
 
 /// A plan whose safety factors are filled in, or the reason there is none. Deterministic for a seed as long as the time
-/// limit is not reached. The caller verifies. Throws terrain::InputError ("file: start: ...") for a start that is bad
-/// input (start_fault in problem.hpp), std::invalid_argument for a planner that is not in planner_names().
+/// limit is not reached. The caller verifies. Throws terrain::InputError ("file:line:column: start: ...") for a
+/// start that is bad input (StartChoice::decided in problem.hpp), std::invalid_argument for a planner that is not in
+/// planner_names().
 gaits::Plan search(const gaits::Scene& scene, const SearchOptions& options);
+
+/// When a time limit [s] that began to run at `begin` is reached.
+std::chrono::steady_clock::time_point deadline_after(std::chrono::steady_clock::time_point begin, double limit);
 
 }  // namespace surefoot::planner

@@ -89,10 +89,10 @@ class Shortener {
     gaits::Feet three = from.feet;
     three[from.free_leg] = to.feet[first];
     if (!gaits::within_reach(proposals_.robot(), to.feet[first]->position, from.com, from.com)) return false;
-    gaits::Feet two = three, reached = three;
+    gaits::Feet two = three;
     two[lift].reset();
-    // Between the steps the COM must reach the second foothold too: an octagon about all four.
-    Polygon window = reach_window(reached, proposals_.robot().reach_max);
+    // Between the steps the COM reaches the three feet on the ground; the second foothold is asked for COM by COM.
+    Polygon window = reach_window(three, proposals_.robot().reach_max);
     if (window.empty()) return false;
     window = gaits::oracle_of(proposals_.scene(), two).equilibrium_polygon(window);
     if (window.empty()) return false;
@@ -115,8 +115,10 @@ class Shortener {
   /// elsewhere: the next step must still be able to swing it.
   bool replace(std::size_t i, std::size_t j, const std::vector<Node>& bridge, const Renaming& name) {
     std::vector<Node> rest;
-    for (std::size_t k = j + 1; k < path_.size(); ++k) rest.push_back(renamed(proposals_, path_[k], name));
-    if (!rest.empty() && !proposals_.is_legal(bridge.back(), rest.front())) return false;
+    for (std::size_t k = j + 1; k < path_.size(); ++k) {
+      rest.push_back(renamed(proposals_, path_[k], name));
+      if (rest.size() == 1 && !proposals_.is_legal(bridge.back(), rest.front())) return false;
+    }
     path_.resize(i + 1);
     path_.insert(path_.end(), bridge.begin(), bridge.end());
     path_.insert(path_.end(), rest.begin(), rest.end());

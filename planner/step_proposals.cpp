@@ -139,7 +139,7 @@ bool StepProposals::is_legal(const Node& from, const Node& to) {
 }
 
 std::string summary(const ProposalCounts& counts) {
-  std::array<std::size_t, 8> order;
+  std::array<std::size_t, gaits::rule_count> order;
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return counts.blocked[a] > counts.blocked[b]; });

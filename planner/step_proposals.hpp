@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -39,7 +40,8 @@ Eigen::Vector2d progress_point(const Node& node);
 
 /// What stood against the proposals so far.
 struct ProposalCounts {
-  std::array<std::uint64_t, 8> blocked{};  ///< by gaits::Rule; stance_stability includes an empty R_SS(W)
+  /// By gaits::Rule; stance_stability includes an empty R_SS(W).
+  std::array<std::uint64_t, gaits::rule_count> blocked{};
   std::uint64_t proposed = 0, legal = 0;
   std::uint64_t swings_asked = 0, swings_skipped = 0;
 };

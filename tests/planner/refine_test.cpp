@@ -168,6 +168,19 @@ TEST_CASE("A start COM of our choice stays where both legs are visible, so that 
   CHECK(solved >= 4);
 }
 
+TEST_CASE("No window is begun after the deadline, and the plan still holds and says so", "[refine]") {
+  const auto scene = level_scene(start + "}\ngoal: {com_x: [0.1, 0.8]}\n");
+  const gaits::Plan poor = one_step(scene, {0.3, 0.8}, {0.25, 0.8});
+  planner::RefineOptions options;
+  options.deadline = {};  // long ago
+  const gaits::Plan same = planner::refine(scene, poor, options);
+  CHECK(gaits::verify(scene, same).holds());
+  CHECK(same.stances[0].com == poor.stances[0].com);
+  CHECK(same.stances[1].com == poor.stances[1].com);
+  REQUIRE(same.left_out.size() == poor.left_out.size() + 1);
+  CHECK(same.left_out.back().why == "the time limit was reached");
+}
+
 TEST_CASE("A plan that is not solved comes back as it is", "[refine]") {
   const auto scene = level_scene(start + "}\ngoal: {com_x: [0.1, 0.8]}\n");
   gaits::Plan none;

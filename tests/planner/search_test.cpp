@@ -162,12 +162,12 @@ TEST_CASE("a given start that is not stable is bad input, said with its numbers"
   const auto scene = gaits::parse_scene(
       scene_text(level, "{feet: [{x: -0.4}, {x: 0}, {x: -0.2}], support: [1, 2], com: [0.1, 0.5]}", "{com_x: [2, 3]}"),
       "unstable.yaml");
-  CHECK_THROWS_WITH(run(scene), Catch::StartsWith("unstable.yaml: start: not stable on feet 1 and 2: safety factor 0"));
+  CHECK_THROWS_WITH(run(scene), Catch::StartsWith("unstable.yaml:9:8: start: not stable on feet 1 and 2: safety factor 0"));
   const auto low = gaits::parse_scene(
       scene_text(level, "{feet: [{x: -0.4}, {x: 0.1}, {x: -0.2}], support: [1, 2], com: [-0.15, 0.06]}",
                  "{com_x: [2, 3]}"),
       "low.yaml");
-  CHECK_THROWS_WITH(run(low), Catch::Contains("start: the COM is 0.06 m from the terrain, clearance is 0.1 m"));
+  CHECK_THROWS_WITH(run(low), Catch::Contains("low.yaml:9:8: start: the COM is 0.06 m from the terrain, clearance is 0.1 m"));
 }
 
 TEST_CASE("start feet that no COM balances on are bad input", "[search]") {
@@ -176,7 +176,7 @@ TEST_CASE("start feet that no COM balances on are bad input", "[search]") {
       scene_text("  friction: 0.3\n  chains:\n    - vertices: [[-1, -1], [2, 2]]\n",
                  "{feet: [{x: 0}, {x: 0.3}, null]}", "{com_x: [1, 1.5]}"),
       "slide.yaml");
-  CHECK_THROWS_WITH(run(scene), Catch::Contains("slide.yaml: start: no COM within reach of feet 1 and 2"));
+  CHECK_THROWS_WITH(run(scene), Catch::Contains("slide.yaml:9:8: start: no COM within reach of feet 1 and 2"));
 }
 
 TEST_CASE("start feet that one COM alone can reach are not called bad input", "[search]") {

@@ -1,10 +1,25 @@
 // Runs a program as a user would and keeps what it said.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace surefoot::test {
+
+/// A folder of its own that goes away with the object.
+class ScratchFolder {
+ public:
+  ScratchFolder();  ///< throws std::runtime_error if it cannot be made
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
 
 struct ProgramRun {
   int status = -1;       ///< exit status; 128 + signal number if a signal ended it

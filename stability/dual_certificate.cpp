@@ -247,11 +247,16 @@ bool DualCertificate::in_cone(const Covector& covector, const TwistCone<K>& cone
 
 bool DualCertificate::proves(const Covector& a, const Frame<double>& frame_a, const Covector& b,
                              const Frame<double>& frame_b, double radius) const {
+  if (Guard(posture_.edge_bound(), posture_.rho2(), radius, box_).nothing_certain()) return false;
   const Row<double> za = covector_about_contact<double>(posture_, spec_, a);
   const Row<double> zb = covector_about_contact<double>(posture_, spec_, b);
   // Errors as in guard.hpp, for |Z_x| + |Z_y| = force and a moment of at most |Z_0| + R force about any COM of the line.
-  const double force = std::max(std::abs(za.p) + std::abs(za.one), std::abs(zb.p) + std::abs(zb.one));
-  const double about_contact = std::max(std::abs(za.q), std::abs(zb.q)) + posture_.spread() * force;
+  // A sum of normals (all_break) has the errors of its terms, however small it is itself: |n| <= 2 in the 1-norm.
+  const auto size = [&](const Covector& c, const Row<double>& z) {
+    return spec_.kind == Kind::all_break ? 2 * (c.z.p + c.z.one + c.z.q) : std::abs(z.p) + std::abs(z.one);
+  };
+  const double force = std::max(size(a, za), size(b, zb));
+  const double about_contact = std::max(std::abs(za.q), std::abs(zb.q)) + 2 * posture_.spread() * force;
   const double moment = about_contact + radius * force;
   const double factor = row_error_factor * posture_.edge_bound();
   const double twist_error = row_error_factor * about_contact + underflow_slack;

@@ -14,11 +14,13 @@
 //   two-slide denominator                 17 u of 8 a^2 (rho2 + R^2)
 // A row's value at (p, q) with |p| <= P, |q| <= Q adds 3 u of its magnitude. Hence every row value of the first class has an
 // error of at most 64 u a ((rho2 + R^2)(1 + P) + R Q), of the length class 64 u a^2 (R (1 + P) + Q), and every
-// denominator of at most 136 u a^2 (rho2 + R^2). Along a line the polynomial's coefficients and its evaluation multiply the
-// number of operations by at most 3 (r has two coefficients, each product of two of them three), which the factor below
-// contains: 136 * 3 < 512. Underflow adds an absolute error below `underflow_slack`; overflow gives inf or NaN, for
-// which every comparison below is false: not certain. What is not certain is decided in rationals.
+// denominator of at most 136 u a^2 (rho2 + R^2). At a point of a line r has 4 u, which the factor below
+// contains: 136 * 3 < 512. Underflow adds an absolute error below `underflow_slack` while all quantities are within
+// [1e-70, 1e70] or 0; outside of that the bounds are infinite and nothing is certain. What is not certain is decided
+// in rationals.
 #pragma once
+
+#include <limits>
 
 #include "stability/contact.hpp"
 #include "stability/rows.hpp"
@@ -35,8 +37,15 @@ struct Guard {
   double length = 0;       // rows added by Sink::add_length [m]
   double denominator = 0;  // D
 
+  bool nothing_certain() const { return area == std::numeric_limits<double>::infinity(); }
+
   Guard() = default;
   Guard(double a, double rho2, double radius, const DisturbanceBox& box) {
+    const auto ordinary = [](double x) { return x == 0 || (x > 1e-70 && x < 1e70); };
+    if (!ordinary(a) || !ordinary(rho2) || !ordinary(radius) || !ordinary(box.kappa) || !ordinary(box.nu)) {
+      area = length = denominator = std::numeric_limits<double>::infinity();
+      return;
+    }
     const double area_scale = rho2 + radius * radius;
     const double factor = row_error_factor * a * a;
     denominator = factor * area_scale + underflow_slack;

@@ -14,8 +14,8 @@ using Eigen::Vector2d;
 
 /// Proofs on [a, b] fail on intervals shorter than this only where the mode is feasible or tangential nearby.
 constexpr double least_interval = 0x1p-40;
-/// More intervals than this are not tried: a line of ordinary length needs one or two, lines of 1000 rho some tens.
-constexpr int max_intervals = 4096;
+/// More intervals than these are not tried: a line of ordinary length needs one or two, lines of 1000 rho some tens.
+constexpr int max_intervals = 4096, max_exact_intervals = 200;
 
 /// A point of the line with the covector proposed there.
 struct Station {
@@ -27,10 +27,10 @@ struct Station {
 /// Proves intervals from `lambda` on, each twice as long as the last where that works, half as long where not; proves(a, b)
 /// decides between two stations. Returns the lambda reached.
 template <class MakeStation, class Proves>
-double proved_up_to(double lambda, MakeStation&& make_station, Proves&& proves) {
+double proved_up_to(double lambda, int intervals, MakeStation&& make_station, Proves&& proves) {
   Station here = make_station(lambda);
   double length = 1 - lambda;
-  for (int k = 0; k < max_intervals && here.covector.found && here.lambda < 1 && length >= least_interval; ++k) {
+  for (int k = 0; k < intervals && here.covector.found && here.lambda < 1 && length >= least_interval; ++k) {
     const double end = length < 1 - here.lambda ? here.lambda + length : 1;
     Station there = make_station(end);
     if (there.covector.found && proves(here, there)) {
@@ -111,7 +111,7 @@ double LineQuery::excluded_up_to(const ModeSpec& spec, double s, double lambda) 
     const Frame<double> frame = posture_.frame(from_, to_, at);
     return Station{at, frame, certificate.propose(frame)};
   };
-  return proved_up_to(lambda, station, [&](const Station& a, const Station& b) {
+  return proved_up_to(lambda, max_intervals, station, [&](const Station& a, const Station& b) {
     return certificate.proves(a.covector, a.frame, b.covector, b.frame, radius_);
   });
 }
@@ -147,7 +147,7 @@ LineMode LineQuery::feasible_exactly(const ModeSpec& spec) const {
     const Frame<double> frame = posture_.frame(from_, to_, at);
     return Station{at, frame, certificate.propose(frame)};
   };
-  const double reached = proved_up_to(0, station, [&](const Station& a, const Station& b) {
+  const double reached = proved_up_to(0, max_exact_intervals, station, [&](const Station& a, const Station& b) {
     return certificate.proves(a.covector, posture_.exact_frame(from_, to_, a.lambda), b.covector,
                               posture_.exact_frame(from_, to_, b.lambda));
   });

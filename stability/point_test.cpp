@@ -54,7 +54,9 @@ bool PointQuery::equilibrium() {
   const double x = -frame_.at[0].r.x, y = -frame_.at[0].r.y;
   // z has errors below facet_error (times lengths), the sum at most 8 u of the magnitudes, which facet_error bounds too.
   const double lengths = posture_.spread() + std::abs(x) + std::abs(y);
-  const double error = 4 * posture_.facet_error() * (lengths * (1 + box_.kappa) + box_.nu) + underflow_slack;
+  const double error = guard_.nothing_certain()
+                           ? guard_.area
+                           : 4 * posture_.facet_error() * (lengths * (1 + box_.kappa) + box_.nu) + underflow_slack;
   for (const Facet& facet : posture_.facets()) {
     const Row<double>& z = facet.z;
     const double least = z.one + z.q * x - box_.kappa * std::abs(z.p - z.q * y) - box_.nu * std::abs(z.q);

@@ -46,7 +46,7 @@ int opening_sign(const Eigen::Vector2d& xi, const Eigen::Vector2d& xl, const Vec
   const double left = dx * nl.y, right = dy * nl.x;
   // dx, dy: 1 u each, two products and a difference: 3 u of the magnitude.
   const double bound = 4 * unit_roundoff * (std::abs(left) + std::abs(right));
-  const bool underflow = bound < underflow_slack && ((dx != 0 && nl.y != 0) || (dy != 0 && nl.x != 0));
+  const bool underflow = bound < underflow_slack && ((dx != 0 && given.y != 0) || (dy != 0 && given.x != 0));
   return certain_sign(left - right, underflow ? HUGE_VAL : bound, [&] {
     const Vec2<Rational> d = rational(xl) - rational(xi);
     return cross(d, rational(given));

@@ -191,7 +191,7 @@ class LineMinimum {
   Vector2d at(double lambda) const { return from_ + lambda * (to_ - from_); }
 
   double scale(const ModeSpec& spec, double lambda) const {
-    return mode_scale(posture_.frame(at(lambda)), spec, box_, infinity).s;
+    return mode_scale(posture_.frame(from_, to_, lambda), spec, box_, infinity).s;
   }
 
   /// Modes that cannot lower a bound.
@@ -200,13 +200,13 @@ class LineMinimum {
   /// Lowers `best` to the mode's least scale on the line, if that is lower. Where certificates at the level of the bound
   /// stop, the scale is evaluated: lower than the bound, it is followed downhill to a local minimum, which becomes the bound.
   void lower(const ModeSpec& spec, double& best, double& best_lambda) const {
-    constexpr double least_step = 1e-9;    // in lambda, where doubles can neither certify nor find a lower value
-    constexpr int max_rounds = 1000;
+    double step = 1e-9;  // in lambda, where doubles can neither certify nor find a lower value; doubled each time
     double lambda = 0;
-    for (int round = 0; round < max_rounds && lambda < 1 && best > 0; ++round) {
+    while (lambda < 1 && best > 0) {
       lambda = query_.excluded_up_to(spec, confirmed_level(best), lambda);
       if (lambda >= 1) return;
-      const double probe = std::min(1.0, lambda + least_step);
+      const double probe = std::min(1.0, lambda + step);
+      step *= 2;
       if (std::min(scale(spec, lambda), scale(spec, probe)) < best) descend(spec, lambda, best, best_lambda);
       lambda = probe;
     }
@@ -215,7 +215,7 @@ class LineMinimum {
  private:
   // Factors beyond this are confirmed at this level only: larger disturbances exceed the body's weight by far.
   static double confirmed_level(double best) {
-    constexpr double strictness = 1 - 1e-7, greatest_level = 1e12;  // certificates are strict: slightly below the bound
+    constexpr double strictness = 1 - 1e-7, greatest_level = 1e6;  // certificates are strict: slightly below the bound
     return std::min(best * strictness, greatest_level);
   }
 

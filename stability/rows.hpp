@@ -106,7 +106,7 @@ Row<V> normal_cross(const ContactTerms<V>& a, const ContactTerms<V>& b) {
   return {b.nz * a.n.y - a.nz * b.n.y, a.nz * b.n.x - b.nz * a.n.x, V(cross(a.n, b.n))};
 }
 
-/// (b . c) rows of a force pair: (edge, sz) x m c.
+/// s x M c for the force s = (C, r x C) along an edge.
 template <class V>
 Row<V> force_cross(const ContactTerms<V>& a, int edge, const Row<V>& mc) {
   const Vec2<Constant<V>>& c = a.edge[edge];

@@ -15,6 +15,10 @@ using Kind = ModeSpec::Kind;
 struct Interval {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   void need_positive(double value_l, double value_i) {
+    if (value_i == 0) {
+      if (!(value_l > 0)) high = low;
+      return;
+    }
     const double limit = -value_l / value_i;
     if (value_i > 0)
       low = std::max(low, limit);
@@ -190,6 +194,7 @@ bool roll_excluded(const ModeSpec& spec, const Frame<double>& a, const Frame<dou
 
 std::uint32_t screened_modes(const Posture& posture, const Frame<double>& a, const Frame<double>& b, double radius,
                              const DisturbanceBox& box, const Guard& guard, std::uint32_t wanted) {
+  if (guard.nothing_certain()) return 0;
   const ContactScreen screen(posture, a, b, radius, box);
   std::array<signed char, 3> known{};  // 0: not asked yet
   const auto contact_excluded = [&](int i) {

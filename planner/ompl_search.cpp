@@ -102,7 +102,7 @@ ob::PlannerPtr make_planner(const oc::SpaceInformationPtr& si, const ob::Problem
 
 oc::SpaceInformationPtr make_space(StepProposals& proposals) {
   const auto space = std::make_shared<StanceSpace>(proposals.scene());
-  const auto controls = std::make_shared<oc::RealVectorControlSpace>(space, std::tuple_size_v<StepCode>);
+  const auto controls = std::make_shared<CodeSpace>(space);
   ob::RealVectorBounds cube(std::tuple_size_v<StepCode>);
   cube.setLow(0);
   cube.setHigh(1);

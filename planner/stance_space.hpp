@@ -12,8 +12,10 @@
 #include <ompl/control/spaces/RealVectorControlSpace.h>
 
 #include <limits>
+#include <tuple>
 
 #include "planner/node.hpp"
+#include "planner/pool.hpp"
 #include "planner/step_proposals.hpp"
 
 namespace surefoot::planner {
@@ -43,8 +45,13 @@ class StanceSpace : public ompl::base::StateSpace {
                    ompl::base::State* state) const override;
   bool isMetricSpace() const override { return false; }
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
-  ompl::base::State* allocState() const override { return new StateType; }
-  void freeState(ompl::base::State* state) const override { delete static_cast<StateType*>(state); }
+  ompl::base::State* allocState() const override {
+    StateType* state = states_.take();
+    state->node = {}, state->target = {};
+    state->is_target = false, state->valid = true;
+    return state;
+  }
+  void freeState(ompl::base::State* state) const override { states_.give_back(static_cast<StateType*>(state)); }
   void registerProjections() override;
 
   static const StateType& of(const ompl::base::State* state) { return *static_cast<const StateType*>(state); }
@@ -53,6 +60,23 @@ class StanceSpace : public ompl::base::StateSpace {
  private:
   const gaits::Scene* scene_;
   double extent_;  ///< [m]
+  mutable Pool<StateType> states_;
+};
+
+/// The unit cube of step codes.
+class CodeSpace : public ompl::control::RealVectorControlSpace {
+ public:
+  explicit CodeSpace(const ompl::base::StateSpacePtr& space)
+      : ompl::control::RealVectorControlSpace(space, std::tuple_size_v<StepCode>) {}
+  ompl::control::Control* allocControl() const override { return codes_.take(); }
+  void freeControl(ompl::control::Control* control) const override { codes_.give_back(static_cast<Code*>(control)); }
+
+ private:
+  struct Code : ControlType {
+    Code() { values = storage.data(); }
+    StepCode storage{};
+  };
+  mutable Pool<Code> codes_;
 };
 
 /// How far a node stands back each time it has been chosen, in reach_max: at once to where nodes some steps behind get

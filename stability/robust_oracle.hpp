@@ -56,7 +56,7 @@ struct HalfPlane {
 };
 
 /// All questions about one set of 1 to 3 contacts. Construction does the work that does not depend on the COM;
-/// member functions are const, cheap, allocate nothing unless they return a vector, and may be called
+/// member functions are const, cheap (rationals, where they are needed, are not), and may be called
 /// from several threads.
 class RobustOracle {
  public:

@@ -21,6 +21,11 @@ struct Critical {
   enum class Kind { none, equilibrium, mode } kind = Kind::none;
   ContactMode mode{};        ///< meaningful for Kind::mode
   std::string name() const;  ///< "none", "equilibrium" or the mode's letters
+
+  static Critical of_equilibrium() { return {Kind::equilibrium, {}}; }
+  static Critical of(const Posture& posture, const ModeSpec& spec) {
+    return {Kind::mode, contact_mode(spec, posture.contacts())};
+  }
 };
 
 /// sigma = sup {s >= 0 : the posture is robustly stable for s W}; theory section 5.

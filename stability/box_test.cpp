@@ -6,6 +6,13 @@
 namespace surefoot::stability {
 namespace {
 
+/// Multipliers of up to three rows.
+struct Certificate {
+  int count = 0;
+  std::array<int, 3> row{};
+  std::array<double, 3> y{};
+};
+
 using Corners = std::array<double, 4>;
 
 Corners corner_values(const Row<double>& row, const DisturbanceBox& box) {
@@ -55,13 +62,8 @@ std::optional<Certificate> triple_certificate(int i, int j, int k, const RowList
   return Certificate{3, {i, j, k}, {y[0] * scale, y[1] * scale, y[2] * scale}};
 }
 
-}  // namespace
-
-bool any_certificate(const RowList<double>& rows, const DisturbanceBox& box,
-                     const std::function<bool(const Certificate&)>& accept) {
-  std::array<Corners, max_rows> at;
-  for (int k = 0; k < rows.count; ++k) at[k] = corner_values(rows.row[k], box);
-  const auto good = [&](const std::optional<Certificate>& c) { return c && holds(*c, at, rows) && accept(*c); };
+bool has_certificate(const RowList<double>& rows, const std::array<Corners, max_rows>& at) {
+  const auto good = [&](const std::optional<Certificate>& c) { return c && holds(*c, at, rows); };
   for (int k = 0; k < rows.count; ++k)
     if (good(Certificate{1, {k, 0, 0}, {1, 0, 0}})) return true;
   for (int i = 0; i < rows.count; ++i)
@@ -74,17 +76,40 @@ bool any_certificate(const RowList<double>& rows, const DisturbanceBox& box,
   return false;
 }
 
-std::optional<Vec2<double>> find_witness(const RowList<double>& rows, const DisturbanceBox& box) {
-  const auto positive = [&](const Vec2<double>& v) {
-    for (int k = 0; k < rows.count; ++k)
-      if (!(value_at(rows.row[k], v.x, v.y) > rows.error[k])) return false;
-    return true;
-  };
-  const Vec2<double> gravity{0, 0};
-  if (positive(gravity)) return gravity;
-  const auto candidate = middle(rows, box.kappa, box.nu);
-  if (candidate && positive(*candidate)) return candidate;
-  return std::nullopt;
+bool gravity_is_witness(const RowList<double>& rows) {
+  for (int k = 0; k < rows.count; ++k)
+    if (!(rows.row[k].one > rows.error[k])) return false;
+  return true;
+}
+
+bool corner_is_witness(const RowList<double>& rows, const std::array<Corners, max_rows>& at) {
+  std::array<bool, 4> positive{true, true, true, true};
+  for (int k = 0; k < rows.count; ++k)
+    for (int corner = 0; corner < 4; ++corner) positive[corner] &= at[k][corner] > rows.error[k];
+  return positive[0] || positive[1] || positive[2] || positive[3];
+}
+
+/// The mean of the vertices: every row is positive there if it is anywhere in the polygon.
+bool middle_is_witness(const RowList<double>& rows, const DisturbanceBox& box) {
+  const Polygon<double> polygon = feasible_polygon(rows, box.kappa, box.nu);
+  if (polygon.count == 0) return false;
+  Vec2<double> sum{0, 0};
+  for (int k = 0; k < polygon.count; ++k) sum = {sum.x + polygon.at[k].x, sum.y + polygon.at[k].y};
+  const double x = sum.x / polygon.count, y = sum.y / polygon.count;
+  for (int k = 0; k < rows.count; ++k)
+    if (!(value_at(rows.row[k], x, y) > rows.error[k])) return false;
+  return true;
+}
+
+}  // namespace
+
+Meeting meets_box(const RowList<double>& rows, const DisturbanceBox& box) {
+  if (gravity_is_witness(rows)) return Meeting::yes;
+  std::array<Corners, max_rows> at;
+  for (int k = 0; k < rows.count; ++k) at[k] = corner_values(rows.row[k], box);
+  if (corner_is_witness(rows, at)) return Meeting::yes;
+  if (has_certificate(rows, at)) return Meeting::no;
+  return middle_is_witness(rows, box) ? Meeting::yes : Meeting::uncertain;
 }
 
 }  // namespace surefoot::stability

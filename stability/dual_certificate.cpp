@@ -239,7 +239,7 @@ bool DualCertificate::in_cone(const Covector& covector, const TwistCone<K>& cone
   if (spec_.kind == Kind::all_break) return z.p >= 0 && z.one >= 0 && z.q >= 0 && z.p + z.one + z.q > 0;
   if (cone.free_rotation && z.q != 0) return false;
   const Row<K> exact{K(z.p), K(z.one), K(z.q)};
-  const K least(std::is_same_v<K, double> ? error : 0);
+  const K least(std::is_same_v<K, double> ? error : 0.0);
   for (int k = 0; k < cone.count; ++k)
     if (!(dot(exact, cone.extreme[k]) >= least)) return false;
   return true;
@@ -247,7 +247,7 @@ bool DualCertificate::in_cone(const Covector& covector, const TwistCone<K>& cone
 
 bool DualCertificate::proves(const Covector& a, const Frame<double>& frame_a, const Covector& b,
                              const Frame<double>& frame_b, double radius) const {
-  if (Guard(posture_.edge_bound(), posture_.rho2(), radius, box_).nothing_certain()) return false;
+  if (GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(radius).nothing_certain()) return false;
   const Row<double> za = covector_about_contact<double>(posture_, spec_, a);
   const Row<double> zb = covector_about_contact<double>(posture_, spec_, b);
   // Errors as in guard.hpp, for |Z_x| + |Z_y| = force and a moment of at most |Z_0| + R force about any COM of the line.
@@ -267,13 +267,13 @@ bool DualCertificate::proves(const Covector& a, const Frame<double>& frame_a, co
                                area + factor * radius * moment + underflow_slack);
 }
 
-bool DualCertificate::proves(const Covector& a, const Frame<Rational>& frame_a, const Covector& b,
-                             const Frame<Rational>& frame_b) const {
-  const TwistCone<Rational> cone = twist_cone<Rational>(posture_, spec_);
-  if (!in_cone<Rational>(a, cone, 0) || !in_cone<Rational>(b, cone, 0)) return false;
-  const Rational none(0);
-  return holds_between<Rational>(spec_, box_, covector_about_contact<Rational>(posture_, spec_, a), frame_a,
-                                 covector_about_contact<Rational>(posture_, spec_, b), frame_b, none, none);
+bool DualCertificate::proves(const Covector& a, const Frame<Dyadic>& frame_a, const Covector& b,
+                             const Frame<Dyadic>& frame_b) const {
+  const TwistCone<Dyadic> cone = twist_cone<Dyadic>(posture_, spec_);
+  if (!in_cone<Dyadic>(a, cone, 0) || !in_cone<Dyadic>(b, cone, 0)) return false;
+  const Dyadic none(0);
+  return holds_between<Dyadic>(spec_, box_, covector_about_contact<Dyadic>(posture_, spec_, a), frame_a,
+                                 covector_about_contact<Dyadic>(posture_, spec_, b), frame_b, none, none);
 }
 
 }  // namespace surefoot::stability

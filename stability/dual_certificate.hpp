@@ -45,8 +45,8 @@ class DualCertificate {
   /// COMs. In doubles with error bounds for |r_x| + |r_y| <= radius, in rationals exactly.
   bool proves(const Covector& a, const Frame<double>& frame_a, const Covector& b, const Frame<double>& frame_b,
               double radius) const;
-  bool proves(const Covector& a, const Frame<Rational>& frame_a, const Covector& b,
-              const Frame<Rational>& frame_b) const;
+  bool proves(const Covector& a, const Frame<Dyadic>& frame_a, const Covector& b,
+              const Frame<Dyadic>& frame_b) const;
 
  private:
   Covector propose_widened(const Frame<double>& frame, double widening) const;

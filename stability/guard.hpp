@@ -38,20 +38,29 @@ struct Guard {
   double denominator = 0;  // D
 
   bool nothing_certain() const { return area == std::numeric_limits<double>::infinity(); }
+};
 
-  Guard() = default;
-  Guard(double a, double rho2, double radius, const DisturbanceBox& box) {
-    const auto ordinary = [](double x) { return x == 0 || (x > 1e-70 && x < 1e70); };
-    if (!ordinary(a) || !ordinary(rho2) || !ordinary(radius) || !ordinary(box.kappa) || !ordinary(box.nu)) {
-      area = length = denominator = std::numeric_limits<double>::infinity();
-      return;
+/// What guards of one posture and one box have in common.
+class GuardScale {
+ public:
+  GuardScale(double a, double rho2, const DisturbanceBox& box)
+      : rho2_(rho2), kappa_(box.kappa), nu_(box.nu), factor_(row_error_factor * a * a),
+        ordinary_(ordinary(a) && ordinary(rho2) && ordinary(box.kappa) && ordinary(box.nu)) {}
+
+  Guard at(double radius) const {
+    if (!ordinary_ || !ordinary(radius)) {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      return {infinity, infinity, infinity};
     }
-    const double area_scale = rho2 + radius * radius;
-    const double factor = row_error_factor * a * a;
-    denominator = factor * area_scale + underflow_slack;
-    area = factor * (area_scale * (1 + box.kappa) + radius * box.nu) + underflow_slack;
-    length = factor * (radius * (1 + box.kappa) + box.nu) + underflow_slack;
+    const double area_scale = rho2_ + radius * radius;
+    return {factor_ * (area_scale * (1 + kappa_) + radius * nu_) + underflow_slack,
+            factor_ * (radius * (1 + kappa_) + nu_) + underflow_slack, factor_ * area_scale + underflow_slack};
   }
+
+ private:
+  static bool ordinary(double x) { return x == 0 || (x > 1e-70 && x < 1e70); }
+  double rho2_, kappa_, nu_, factor_;
+  bool ordinary_;
 };
 
 }  // namespace surefoot::stability

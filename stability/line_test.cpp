@@ -71,12 +71,17 @@ class RecursiveScreen {
  public:
   RecursiveScreen(const Posture& posture, const Vector2d& from, const Vector2d& to, double radius,
                   const DisturbanceBox& box)
-      : posture_(posture), from_(from), to_(to), radius_(radius), box_(box),
-        guard_(posture.edge_bound(), posture.rho2(), radius, box) {}
+      : posture_(posture), from_(from), to_(to), box_(box),
+        guard_(GuardScale(posture.edge_bound(), posture.rho2(), box).at(radius)) {}
 
   std::uint32_t excluded(double a, const Frame<double>& at_a, double b, const Frame<double>& at_b, std::uint32_t wanted,
                          int halvings) const {
-    const std::uint32_t whole = screened_modes(posture_, at_a, at_b, radius_, box_, guard_, wanted);
+    Screen<false> screen(at_a, at_b, box_, guard_);
+    std::uint32_t whole = 0, bit = 1;
+    for (const ModeSpec& spec : posture_.modes()) {
+      if ((wanted & bit) && screen.excludes(spec)) whole |= bit;
+      bit <<= 1;
+    }
     const std::uint32_t left = wanted & ~whole;
     if (left == 0 || halvings == 0) return whole;
     const double middle = 0.5 * (a + b);
@@ -90,7 +95,6 @@ class RecursiveScreen {
  private:
   const Posture& posture_;
   const Vector2d &from_, &to_;
-  double radius_;
   const DisturbanceBox& box_;
   Guard guard_;
 };
@@ -126,14 +130,14 @@ LineMode LineQuery::feasible(const ModeSpec& spec) const {
 
 /// A wrench for which the mode is feasible at lambda, beyond the error bounds.
 bool LineQuery::has_witness(const ModeSpec& spec, double lambda) const {
-  const Guard guard(posture_.edge_bound(), posture_.rho2(), radius_, box_);
+  const Guard guard = GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(radius_);
   PointSink sink(guard, box_);
   emit_rows(posture_.frame(from_, to_, lambda), spec, sink);
-  return !sink.excluded() && sink.sign_certain() && find_witness(sink.rows, box_);
+  return !sink.excluded() && sink.sign_certain() && meets_box(sink.rows, box_) == Meeting::yes;
 }
 
 bool LineQuery::has_witness_exactly(const ModeSpec& spec, double lambda) const {
-  RowSink<Rational> sink;
+  RowSink<Dyadic> sink;
   emit_rows(posture_.exact_frame(from_, to_, lambda), spec, sink);
   return meets_box_exactly(sink, box_);
 }

@@ -1,15 +1,12 @@
 // The number types on which the formulas of rows.hpp are evaluated.
 //   double    a point, fast
-//   Rational  a point, exact for the doubles given
+//   Dyadic    a point, exact for the doubles given
 //   Dual      a point, with the gradient in x
 #pragma once
 
-#include <boost/multiprecision/gmp.hpp>
+#include "stability/dyadic.hpp"
 
 namespace surefoot::stability {
-
-/// Expression templates are off so that `auto` and Vec2/Row arithmetic keep plain values.
-using Rational = boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 
 /// Value and gradient in (x, y): forward differentiation.
 struct Dual {
@@ -32,8 +29,8 @@ struct ConstantOf {
   using type = double;
 };
 template <>
-struct ConstantOf<Rational> {
-  using type = Rational;
+struct ConstantOf<Dyadic> {
+  using type = Dyadic;
 };
 template <class V>
 using Constant = typename ConstantOf<V>::type;

@@ -14,49 +14,57 @@ double greatest_offset(const Frame<double>& frame) {
   return radius;
 }
 
-bool meets_with_sign(const RowList<Rational>& rows, bool negative, const DisturbanceBox& box) {
-  RowList<Rational> signed_rows = rows;
+/// The polygon of {rows >= 0} in the box has a point where every row is positive iff each row is positive at one of its vertices.
+bool meets_with_sign(const RowList<Dyadic>& rows, bool negative, const DisturbanceBox& box) {
+  RowList<Dyadic> signed_rows = rows;
   if (negative)
     for (int k = 0; k < rows.count; ++k) signed_rows.row[k] = -rows.row[k];
-  const auto point = middle(signed_rows, Rational(box.kappa), Rational(box.nu));
-  if (!point) return false;
+  const Polygon<Dyadic> polygon = feasible_polygon(signed_rows, Dyadic(box.kappa), Dyadic(box.nu));
+  if (polygon.count == 0) return false;
   for (int k = 0; k < rows.count; ++k) {
-    const Row<Rational>& row = signed_rows.row[k];
+    const Row<Dyadic>& row = signed_rows.row[k];
     if (row.p.is_zero() && row.one.is_zero() && row.q.is_zero()) continue;  // theory section 4: drop it
-    if (value_at(row, point->x, point->y) <= 0) return false;
+    bool positive = false;
+    for (int v = 0; v < polygon.count && !positive; ++v) positive = weighted_value(row, polygon.at[v]) > 0;
+    if (!positive) return false;
   }
   return true;
 }
 
 }  // namespace
 
-bool meets_box_exactly(const RowSink<Rational>& sink, const DisturbanceBox& box) {
+bool meets_box_exactly(const RowSink<Dyadic>& sink, const DisturbanceBox& box) {
   const int sign = sink.d ? sink.d->sign() : 1;
   return (sign >= 0 && meets_with_sign(sink.rows, false, box)) || (sign <= 0 && meets_with_sign(sink.rows, true, box));
 }
 
-PointQuery::PointQuery(const Posture& posture, const Eigen::Vector2d& com, const DisturbanceBox& box)
-    : posture_(posture), com_(com), box_(box), frame_(posture.frame(com)), radius_(greatest_offset(frame_)),
-      guard_(posture.edge_bound(), posture.rho2(), radius_, box) {}
-
-std::uint32_t PointQuery::screened() const {
-  return screened_modes(posture_, frame_, frame_, radius_, box_, guard_);
+void PointQuery::make_frame() {
+  if (framed_) return;
+  framed_ = true;
+  frame_ = posture_.frame(com_);
+  guard_ = GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(greatest_offset(frame_));
 }
 
-const Frame<Rational>& PointQuery::exact_frame() {
+bool PointQuery::any_feasible() {
+  make_frame();
+  Screen<true> screen(frame_, frame_, box_, guard_);
+  for (const ModeSpec& spec : posture_.modes())
+    if (!screen.excludes(spec) && feasible(spec)) return true;
+  return false;
+}
+
+const Frame<Dyadic>& PointQuery::exact_frame() {
   if (!exact_) exact_ = posture_.exact_frame(com_);
   return *exact_;
 }
 
-bool PointQuery::equilibrium() {
+bool PointQuery::equilibrium() const {
   if (posture_.flat_cone()) return false;
-  // g = (p, 1, X_x - p X_y + q) with X = com - x_1 = -r_1: a facet's least value over W is at a corner.
-  const double x = -frame_.at[0].r.x, y = -frame_.at[0].r.y;
+  // g = (p, 1, X_x - p X_y + q) with X = com - x_1: a facet's least value over W is at a corner.
+  const double x = com_.x() - posture_.position(0).x(), y = com_.y() - posture_.position(0).y();
   // z has errors below facet_error (times lengths), the sum at most 8 u of the magnitudes, which facet_error bounds too.
   const double lengths = posture_.spread() + std::abs(x) + std::abs(y);
-  const double error = guard_.nothing_certain()
-                           ? guard_.area
-                           : 4 * posture_.facet_error() * (lengths * (1 + box_.kappa) + box_.nu) + underflow_slack;
+  const double error = 4 * posture_.facet_error() * (lengths * (1 + box_.kappa) + box_.nu) + underflow_slack;
   for (const Facet& facet : posture_.facets()) {
     const Row<double>& z = facet.z;
     const double least = z.one + z.q * x - box_.kappa * std::abs(z.p - z.q * y) - box_.nu * std::abs(z.q);
@@ -67,27 +75,25 @@ bool PointQuery::equilibrium() {
 }
 
 bool PointQuery::inside_exactly(const Facet& facet) const {
-  const Row<Rational> z = posture_.exact_facet(facet);
+  const Row<Dyadic> z = posture_.exact_facet(facet);
   const Eigen::Vector2d& origin = posture_.position(0);
-  const Rational x = Rational(com_.x()) - Rational(origin.x()), y = Rational(com_.y()) - Rational(origin.y());
-  const Rational slope = z.p - z.q * y;
-  const Rational least = z.one + z.q * x - Rational(box_.kappa) * abs(slope) - Rational(box_.nu) * abs(z.q);
+  const Dyadic x = Dyadic(com_.x()) - Dyadic(origin.x()), y = Dyadic(com_.y()) - Dyadic(origin.y());
+  const Dyadic slope = z.p - z.q * y;
+  const Dyadic least = z.one + z.q * x - Dyadic(box_.kappa) * abs(slope) - Dyadic(box_.nu) * abs(z.q);
   return least > 0;
 }
 
 bool PointQuery::feasible(const ModeSpec& spec) {
+  make_frame();
   PointSink sink(guard_, box_);
   emit_rows(frame_, spec, sink);
   if (sink.excluded()) return false;
-  if (sink.sign_certain()) {
-    if (find_witness(sink.rows, box_)) return true;
-    if (any_certificate(sink.rows, box_, [](const Certificate&) { return true; })) return false;
-  }
-  return feasible_exactly(spec);
+  const Meeting meeting = sink.sign_certain() ? meets_box(sink.rows, box_) : Meeting::uncertain;
+  return meeting == Meeting::uncertain ? feasible_exactly(spec) : meeting == Meeting::yes;
 }
 
 bool PointQuery::feasible_exactly(const ModeSpec& spec) {
-  RowSink<Rational> sink;
+  RowSink<Dyadic> sink;
   emit_rows(exact_frame(), spec, sink);
   return meets_box_exactly(sink, box_);
 }

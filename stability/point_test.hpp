@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <optional>
 
 #include "stability/box_test.hpp"
@@ -12,31 +11,31 @@
 
 namespace surefoot::stability {
 
-/// A COM with the frame in doubles; the exact frame is made when first needed.
+/// A COM; the frames in doubles and in exact numbers are made when first needed.
 class PointQuery {
  public:
-  PointQuery(const Posture& posture, const Eigen::Vector2d& com, const DisturbanceBox& box);
+  PointQuery(const Posture& posture, const Eigen::Vector2d& com, const DisturbanceBox& box)
+      : posture_(posture), com_(com), box_(box) {}
 
   /// z . g > 0 at every corner of W for every facet (theory section 3).
-  bool equilibrium();
+  bool equilibrium() const;
   bool feasible(const ModeSpec& spec);
-  /// Modes that shared certificates exclude (screen.hpp).
-  std::uint32_t screened() const;
-  const Frame<double>& frame() const { return frame_; }
-  const Guard& guard() const { return guard_; }
+  /// Whether any mode of the posture is feasible: shared certificates first (screen.hpp).
+  bool any_feasible();
 
  private:
   bool feasible_exactly(const ModeSpec& spec);
   bool inside_exactly(const Facet& facet) const;
-  const Frame<Rational>& exact_frame();
+  void make_frame();
+  const Frame<Dyadic>& exact_frame();
 
   const Posture& posture_;
-  Eigen::Vector2d com_;
-  DisturbanceBox box_;
+  const Eigen::Vector2d& com_;
+  const DisturbanceBox& box_;
+  bool framed_ = false;
   Frame<double> frame_;
-  double radius_;
   Guard guard_;
-  std::optional<Frame<Rational>> exact_;
+  std::optional<Frame<Dyadic>> exact_;
 };
 
 /// Collects a mode's rows in doubles with their error bounds, the sign of D applied. Stops early when a row alone excludes
@@ -83,6 +82,6 @@ struct RowSink {
 };
 
 /// The rows of a mode in exact arithmetic meet the box: with the sign of D, both signs where D = 0.
-bool meets_box_exactly(const RowSink<Rational>& sink, const DisturbanceBox& box);
+bool meets_box_exactly(const RowSink<Dyadic>& sink, const DisturbanceBox& box);
 
 }  // namespace surefoot::stability

@@ -1,14 +1,16 @@
 #include "stability/posture.hpp"
 
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 #include "stability/guard.hpp"
 
 namespace surefoot::stability {
 namespace {
 
-int sign_of(const Rational& value) { return value.sign(); }
+int sign_of(const Dyadic& value) { return value.sign(); }
 
 /// The sign of `value` if its error is below `bound`, else that of `exact()`.
 template <class Exact>
@@ -19,8 +21,8 @@ int certain_sign(double value, double bound, Exact&& exact) {
   return sign_of(exact());
 }
 
-Vec2<Rational> rational(const Vec2<double>& v) { return {Rational(v.x), Rational(v.y)}; }
-Vec2<Rational> rational(const Eigen::Vector2d& v) { return {Rational(v.x()), Rational(v.y())}; }
+Vec2<Dyadic> exactly(const Vec2<double>& v) { return {Dyadic(v.x), Dyadic(v.y)}; }
+Vec2<Dyadic> exactly(const Eigen::Vector2d& v) { return {Dyadic(v.x()), Dyadic(v.y())}; }
 
 bool same(const Vec2<double>& a, const Vec2<double>& b) { return a.x == b.x && a.y == b.y; }
 
@@ -29,13 +31,23 @@ bool surely_parallel(const Vec2<double>& a, const Vec2<double>& b) {
   return same(a, b) || (a.x == 0 && b.x == 0) || (a.y == 0 && b.y == 0);
 }
 
+/// 2^-e for 2^(e - 1) <= size < 2^e.
+double power_of_two_below_inverse(double size) {
+  const auto biased = static_cast<unsigned>(std::bit_cast<std::uint64_t>(size) >> 52);
+  constexpr unsigned greatest = 2044;  // of which the result is a normal number, as of any but subnormals
+  if (biased == 0 || biased > greatest) return std::ldexp(1.0, -std::ilogb(size) - 1);
+  return std::bit_cast<double>(static_cast<std::uint64_t>(2045 - biased) << 52);
+}
+
 /// Components of at most 1, one of them at least 1/2. Scaling by a power of two is exact but for components that become
 /// subnormal, which underflow_slack covers.
 Vec2<double> scaled_normal(const Eigen::Vector2d& n) {
   const double size = std::max(std::abs(n.x()), std::abs(n.y()));
   if (size >= 0.5 && size <= 1) return {n.x(), n.y()};
-  const int exponent = std::ilogb(size) + 1;
-  return {std::ldexp(n.x(), -exponent), std::ldexp(n.y(), -exponent)};
+  constexpr double least = 0x1p-1021;  // the scale of smaller ones is not a double
+  if (size < least) return scaled_normal({n.x() * 0x1p200, n.y() * 0x1p200});
+  const double scale = power_of_two_below_inverse(size);
+  return {n.x() * scale, n.y() * scale};
 }
 
 /// (x_l - x_i) x n_l: the rate at which contact l opens when the body turns about contact i. Independent of the COM.
@@ -48,8 +60,8 @@ int opening_sign(const Eigen::Vector2d& xi, const Eigen::Vector2d& xl, const Vec
   const double bound = 4 * unit_roundoff * (std::abs(left) + std::abs(right));
   const bool underflow = bound < underflow_slack && ((dx != 0 && given.y != 0) || (dy != 0 && given.x != 0));
   return certain_sign(left - right, underflow ? HUGE_VAL : bound, [&] {
-    const Vec2<Rational> d = rational(xl) - rational(xi);
-    return cross(d, rational(given));
+    const Vec2<Dyadic> d = exactly(xl) - exactly(xi);
+    return cross(d, exactly(given));
   });
 }
 
@@ -78,7 +90,8 @@ Posture::Posture(std::span<const Contact> contacts, double radius_of_gyration)
   }
   // Row a x row b: at most 9 u of 2 a^2 (times the spread in the slots that are lengths), as z in guard.hpp.
   facet_error_ = 32 * unit_roundoff * edge_bound_ * edge_bound_;
-  find_facets();
+  if (count_ == 2) find_facets<4>();
+  if (count_ == 3) find_facets<6>();  // one contact: a plane cone, without facets
   list_modes();
 }
 
@@ -114,7 +127,7 @@ Frame<V> make_frame(int count, const std::array<Vec2<double>, 3>& normal, const 
   return frame;
 }
 
-Rational squared(double value) { return Rational(value) * Rational(value); }
+Dyadic squared(double value) { return Dyadic(value) * Dyadic(value); }
 
 }  // namespace
 
@@ -130,9 +143,9 @@ Frame<Dual> Posture::dual_frame(const Eigen::Vector2d& com) const {
   });
 }
 
-Frame<Rational> Posture::exact_frame(const Eigen::Vector2d& com) const {
-  return make_frame<Rational>(count_, given_normal_, friction_, squared(rho_), [&](int i) {
-    return rational(position_[i]) - rational(com);
+Frame<Dyadic> Posture::exact_frame(const Eigen::Vector2d& com) const {
+  return make_frame<Dyadic>(count_, given_normal_, friction_, squared(rho_), [&](int i) {
+    return exactly(position_[i]) - exactly(com);
   });
 }
 
@@ -143,12 +156,12 @@ Frame<double> Posture::frame(const Eigen::Vector2d& from, const Eigen::Vector2d&
   });
 }
 
-Frame<Rational> Posture::exact_frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const {
-  const Rational part(lambda);
-  const Vec2<Rational> start = rational(from), back = start - rational(to);
-  return make_frame<Rational>(count_, given_normal_, friction_, squared(rho_), [&](int i) {
-    const Vec2<Rational> r = rational(position_[i]) - start;
-    return Vec2<Rational>{r.x + part * back.x, r.y + part * back.y};
+Frame<Dyadic> Posture::exact_frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const {
+  const Dyadic part(lambda);
+  const Vec2<Dyadic> start = exactly(from), back = start - exactly(to);
+  return make_frame<Dyadic>(count_, given_normal_, friction_, squared(rho_), [&](int i) {
+    const Vec2<Dyadic> r = exactly(position_[i]) - start;
+    return Vec2<Dyadic>{r.x + part * back.x, r.y + part * back.y};
   });
 }
 
@@ -164,12 +177,12 @@ Row<K> ray_about(const Vec2<K>& d, const Vec2<K>& n, const K& mu, int edge) {
 
 }  // namespace
 
-Row<Rational> Posture::exact_facet(const Facet& facet) const {
+Row<Dyadic> Posture::exact_facet(const Facet& facet) const {
   const auto ray = [&](int k) {
     const int i = k / 2;
-    return ray_about<Rational>(offset<Rational>(0, i), normal<Rational>(i), Rational(friction_[i]), k % 2);
+    return ray_about<Dyadic>(offset<Dyadic>(0, i), normal<Dyadic>(i), Dyadic(friction_[i]), k % 2);
   };
-  const Row<Rational> z = cross(ray(facet.a), ray(facet.b));
+  const Row<Dyadic> z = cross(ray(facet.a), ray(facet.b));
   return facet.sign > 0 ? z : -z;
 }
 
@@ -183,9 +196,9 @@ int Posture::exact_side(int a, int b, int c) const {
   if (frictionless_pair(a, b) || frictionless_pair(a, c) || frictionless_pair(b, c)) return 0;
   // Parallel forces span a plane whatever their lines of action: flat ground, parallel treads.
   if (same_direction(a, b) && same_direction(b, c)) return 0;
-  const Row<Rational> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
+  const Row<Dyadic> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
   const int i = c / 2;
-  return dot(exact, ray_about<Rational>(offset<Rational>(0, i), normal<Rational>(i), Rational(friction_[i]), c % 2)).sign();
+  return dot(exact, ray_about<Dyadic>(offset<Dyadic>(0, i), normal<Dyadic>(i), Dyadic(friction_[i]), c % 2)).sign();
 }
 
 bool Posture::parallel(int a, int b) const {
@@ -194,52 +207,83 @@ bool Posture::parallel(int a, int b) const {
   if (std::abs(z.q) > facet_error_ || std::abs(z.p) > facet_error_ * spread_ + underflow_slack ||
       std::abs(z.one) > facet_error_ * spread_ + underflow_slack)
     return false;
-  const Row<Rational> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
+  const Row<Dyadic> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
   return exact.p.is_zero() && exact.one.is_zero() && exact.q.is_zero();
 }
 
-/// Rays a < b span a plane that an earlier pair has spanned already if a third ray lies in it and pairs with one of them
-/// earlier in the order.
-bool Posture::is_new_plane(int a, int b, const std::array<signed char, 6>& sides) const {
+/// Rays a < b span a plane that an earlier pair has spanned already if a third ray lies in it (`coplanar`, bit c) and pairs with one
+/// of them earlier in the order.
+bool Posture::is_new_plane(int a, int b, unsigned coplanar) const {
   for (int c = 0; c < b; ++c) {
-    if (c == a || sides[c] != 0) continue;
+    if (c == a || !(coplanar >> c & 1)) continue;
     if (!parallel(std::min(a, c), std::max(a, c))) return false;
     if (c < a && !parallel(c, b)) return false;
   }
   return true;
 }
 
-void Posture::add_facet_if_supporting(int a, int b) {
-  const Row<double> z = cross(rays_[a], rays_[b]);
-  // z: 9 u of 2 a^2 (spread); the product with the third ray: at most 3 terms, 8 u more, of 6 a^3 spread.
-  const double bound = 4 * facet_error_ * edge_bound_ * spread_ + underflow_slack;
-  std::array<signed char, 6> sides;
-  bool positive = false, negative = false;
-  for (int c = 0; c < 2 * count_; ++c) {
-    if (c == a || c == b) continue;
-    const double value = dot(z, rays_[c]);
-    sides[c] = static_cast<signed char>(value > bound ? 1 : value < -bound ? -1 : exact_side(a, b, c));
-    positive |= sides[c] > 0;
-    negative |= sides[c] < 0;
-    if (positive && negative) {
-      flat_cone_ = false;
-      return;
-    }
-  }
-  if (positive || negative) flat_cone_ = false;
-  if (parallel(a, b) || !is_new_plane(a, b, sides)) return;
-  const auto ra = static_cast<signed char>(a), rb = static_cast<signed char>(b);
-  if (!negative) facets_[facet_count_++] = {z, ra, rb, 1};
-  if (!positive) facets_[facet_count_++] = {-z, ra, rb, -1};
-}
+namespace {
 
+/// Pairs of rays a < b are numbered in the order (0, 1), (0, 2), (1, 2), (0, 3), ...; sets of pairs are bits.
+constexpr unsigned pair_bit(int a, int b) { return 1u << (b * (b - 1) / 2 + a); }
+
+struct RayPair {
+  signed char a, b;
+};
+constexpr auto ray_pairs = [] {
+  std::array<RayPair, 15> pairs{};
+  int count = 0;
+  for (signed char b = 1; b < 6; ++b)
+    for (signed char a = 0; a < b; ++a) pairs[count++] = {a, b};
+  return pairs;
+}();
+
+}  // namespace
+
+/// A pair of rays spans a facet if no two others lie on different sides of its plane. The sides of all pairs follow from
+/// the signs of the triple products of a < b < c: c's side of (a, b) and a's of (b, c) have that sign, b's of (a, c) the opposite one.
+template <int rays>
 void Posture::find_facets() {
-  for (int i = 0; i < count_; ++i) {
+  for (int i = 0; i < rays / 2; ++i)
     for (int e : {edge_u, edge_w})
       rays_[2 * i + e] = ray_about<double>(offset<double>(0, i), normal_[i], friction_[i], e);
+  // z: 9 u of 2 a^2 (spread); the product with the third ray: at most 3 terms, 8 u more, of 6 a^3 spread.
+  const double bound = 4 * facet_error_ * edge_bound_ * spread_ + underflow_slack;
+  unsigned positive = 0, negative = 0;  // pairs that have a ray on that side
+  std::array<unsigned char, 6 * 6> coplanar{};  // of rays a < b: which third rays lie in their plane
+  bool any_coplanar = false;
+  const auto coplanar_with = [&](int a, int b) -> unsigned char& { return coplanar[6 * a + b]; };
+#pragma GCC unroll 6
+  for (int b = 1; b < rays - 1; ++b)
+#pragma GCC unroll 6
+    for (int a = 0; a < b; ++a) {
+      const Row<double> z = cross(rays_[a], rays_[b]);
+      unsigned above = 0, below = 0;
+#pragma GCC unroll 6
+      for (int c = b + 1; c < rays; ++c) {
+        const double value = dot(z, rays_[c]);
+        const int side = value > bound ? 1 : value < -bound ? -1 : exact_side(a, b, c);
+        const unsigned same = pair_bit(a, b) | pair_bit(b, c), opposite = pair_bit(a, c);
+        if (side > 0) {
+          above |= same, below |= opposite;
+        } else if (side < 0) {
+          above |= opposite, below |= same;
+        } else {
+          any_coplanar = true;
+          coplanar_with(a, b) |= 1u << c, coplanar_with(b, c) |= 1u << a, coplanar_with(a, c) |= 1u << b;
+        }
+      }
+      positive |= above, negative |= below;
+    }
+  flat_cone_ = positive == 0 && negative == 0;
+  if (flat_cone_) return;
+  const unsigned all = (1u << (rays * (rays - 1) / 2)) - 1;
+  for (unsigned left = all & ~(positive & negative); left != 0; left &= left - 1) {
+    const auto [a, b] = ray_pairs[std::countr_zero(left)];
+    if (any_coplanar && (parallel(a, b) || !is_new_plane(a, b, coplanar_with(a, b)))) continue;
+    const Row<double> z = cross(rays_[a], rays_[b]);
+    facets_[facet_count_++] = negative & pair_bit(a, b) ? Facet{-z, a, b, -1} : Facet{z, a, b, 1};
   }
-  for (int b = 1; b < 2 * count_; ++b)
-    for (int a = 0; a < b; ++a) add_facet_if_supporting(a, b);
 }
 
 // ---- modes ------------------------------------------------------------------------------------------------------
@@ -256,6 +300,7 @@ void Posture::list_modes() {
       if (l != i)
         turn_sign_[i][l] =
             static_cast<signed char>(opening_sign(position_[i], position_[l], normal_[l], given_normal_[l]));
+  if (count_ == 3) find_triple_sign();
   add_mode(ModeSpec::Kind::all_break);
   for (int i = 0; i < count_; ++i) add_roll(i);
   for (int i = 0; i < count_; ++i) list_slides(i);
@@ -277,36 +322,39 @@ void Posture::add_roll(int i) {
   spec.sense = static_cast<signed char>(sense);
 }
 
+/// The sign of n_i x n_j.
+int Posture::normal_cross_sign(int i, int j) const {
+  if (surely_parallel(given_normal_[i], given_normal_[j])) return 0;
+  const double bound = 4 * unit_roundoff + underflow_slack;  // components of at most 1: 2 u of 2
+  return certain_sign(cross(normal_[i], normal_[j]), bound, [&] { return cross(normal<Dyadic>(i), normal<Dyadic>(j)); });
+}
+
 /// Sliding at i leaves two freedoms: the speed v along t_i and a rotation alpha about x_i, in which contact l opens at the rate
 /// v (n_l x n_i) + alpha (x_l - x_i) x n_l. Whether some (v, alpha) with sigma v > 0 opens every other contact does not
 /// depend on the COM. With two others that the rotation opens in opposite senses, elimination of alpha leaves the sign of
 /// N_l . (N_i x N_j). (Left to the rows, an impossible mode would have linearly dependent rows, a tangential case.)
-bool Posture::can_slide(int i, int sigma, std::array<bool, 3>& row_vanishes) const {
+void Posture::list_slides(int i) {
   int positive = -1, negative = -1;
+  bool along = true, against = true;  // sigma = 1, sigma = -1
+  std::array<bool, 3> vanishes{};
   for (int l = 0; l < count_; ++l) {
     if (l == i) continue;
     const int turn = turn_sign_[i][l];
     if (turn > 0) positive = l;
     if (turn < 0) negative = l;
     if (turn != 0) continue;
-    const int along = sigma * normal_cross_sign(l, i);
-    if (along < 0) return false;
-    row_vanishes[l] = along == 0;  // both normals on one line
+    const int opening = normal_cross_sign(l, i);
+    if (opening < 0) along = false;
+    if (opening > 0) against = false;
+    vanishes[l] = opening == 0;  // both normals on one line
   }
-  return positive < 0 || negative < 0 || sigma * opening_of_third(i, positive, negative) > 0;
-}
-
-/// The sign of n_i x n_j.
-int Posture::normal_cross_sign(int i, int j) const {
-  if (surely_parallel(given_normal_[i], given_normal_[j])) return 0;
-  const double bound = 4 * unit_roundoff + underflow_slack;  // components of at most 1: 2 u of 2
-  return certain_sign(cross(normal_[i], normal_[j]), bound, [&] { return cross(normal<Rational>(i), normal<Rational>(j)); });
-}
-
-void Posture::list_slides(int i) {
-  for (int sigma : {1, -1}) {
-    std::array<bool, 3> vanishes{};
-    if (!can_slide(i, sigma, vanishes)) continue;
+  if (positive >= 0 && negative >= 0) {
+    const int opening = opening_of_third(i, positive, negative);
+    along &= opening > 0;
+    against &= opening < 0;
+  }
+  for (const int sigma : {1, -1}) {
+    if (!(sigma > 0 ? along : against)) continue;
     ModeSpec& spec = add_mode(ModeSpec::Kind::slide);
     spec.i = static_cast<signed char>(i);
     spec.sigma_i = static_cast<signed char>(sigma);
@@ -314,16 +362,22 @@ void Posture::list_slides(int i) {
   }
 }
 
-/// The sign of N_l . (N_i x N_j).
-int Posture::opening_of_third(int i, int j, int l) const {
-  if (surely_parallel(given_normal_[i], given_normal_[j]) && surely_parallel(given_normal_[i], given_normal_[l])) return 0;
-  const double value = opening_of_slide(offset<double>(i, j), offset<double>(i, l), normal_[i], normal_[j], normal_[l]);
-  // Two products of cross products (3 u of the spread from contact i, at most 2 spread, and 2 u of 2): 8 u of 8 spread.
+/// The sign of N_3 . (N_1 x N_2).
+void Posture::find_triple_sign() {
+  if (surely_parallel(given_normal_[0], given_normal_[1]) && surely_parallel(given_normal_[0], given_normal_[2])) return;
+  const double value = opening_of_slide(offset<double>(0, 1), offset<double>(0, 2), normal_[0], normal_[1], normal_[2]);
+  // Two products of cross products (3 u of the spread from contact 1 and 2 u of 2): 8 u of 4 spread.
   const double bound = 128 * unit_roundoff * spread_ + underflow_slack;
-  return certain_sign(value, bound, [&] {
-    return opening_of_slide(offset<Rational>(i, j), offset<Rational>(i, l), normal<Rational>(i), normal<Rational>(j),
-                            normal<Rational>(l));
-  });
+  triple_sign_ = static_cast<signed char>(certain_sign(value, bound, [&] {
+    return opening_of_slide(offset<Dyadic>(0, 1), offset<Dyadic>(0, 2), normal<Dyadic>(0), normal<Dyadic>(1),
+                            normal<Dyadic>(2));
+  }));
+}
+
+/// The sign of N_l . (N_i x N_j), for three different contacts.
+int Posture::opening_of_third(int i, int j, int l) const {
+  const bool even = (j - i + 3) % 3 == 1 && (l - j + 3) % 3 == 1;
+  return even ? triple_sign_ : -triple_sign_;
 }
 
 /// Along c = N_i x N_j contact i slides as T_i . c = |n_i|^2 (x_j - x_i) x n_j says, contact j as T_j . c = -|n_j|^2 (x_i - x_j) x n_i,

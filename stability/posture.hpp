@@ -45,21 +45,21 @@ class Posture {
 
   Frame<double> frame(const Eigen::Vector2d& com) const;
   Frame<Dual> dual_frame(const Eigen::Vector2d& com) const;
-  Frame<Rational> exact_frame(const Eigen::Vector2d& com) const;
+  Frame<Dyadic> exact_frame(const Eigen::Vector2d& com) const;
   /// At from + lambda (to - from), which need not be a point of doubles: r = (x_i - from) + lambda (from - to).
   Frame<double> frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const;
-  Frame<Rational> exact_frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const;
+  Frame<Dyadic> exact_frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const;
   /// The inner normal of a facet, exactly.
-  Row<Rational> exact_facet(const Facet& facet) const;
+  Row<Dyadic> exact_facet(const Facet& facet) const;
 
  private:
+  template <int rays>
   void find_facets();
-  void add_facet_if_supporting(int a, int b);
   int exact_side(int a, int b, int c) const;
   bool parallel(int a, int b) const;
-  bool is_new_plane(int a, int b, const std::array<signed char, 6>& sides) const;
+  bool is_new_plane(int a, int b, unsigned coplanar) const;
   void list_modes();
-  bool can_slide(int i, int sigma, std::array<bool, 3>& row_vanishes) const;
+  void find_triple_sign();
   void list_slides(int i);
   int opening_of_third(int i, int j, int l) const;
   int normal_cross_sign(int i, int j) const;
@@ -77,9 +77,10 @@ class Posture {
   std::array<Vec2<double>, 3> given_normal_;  // as given: what exact decisions use
   std::array<double, 3> friction_;
   std::array<Row<double>, 6> rays_;     // about contact 1: (C, d x C)
-  std::array<Facet, 30> facets_;
+  std::array<Facet, 15> facets_;
   std::array<ModeSpec, 22> modes_;  // the first mode_count_ of them; likewise facets_: the rest is left uninitialised
   std::array<std::array<signed char, 3>, 3> turn_sign_{};
+  signed char triple_sign_ = 0;  // of N_3 . (N_1 x N_2)
 };
 
 template <>
@@ -87,16 +88,16 @@ inline Vec2<double> Posture::normal<double>(int i) const {
   return normal_[i];
 }
 template <>
-inline Vec2<Rational> Posture::normal<Rational>(int i) const {
-  return {Rational(given_normal_[i].x), Rational(given_normal_[i].y)};
+inline Vec2<Dyadic> Posture::normal<Dyadic>(int i) const {
+  return {Dyadic(given_normal_[i].x), Dyadic(given_normal_[i].y)};
 }
 template <>
 inline Vec2<double> Posture::offset<double>(int i, int l) const {
   return {position_[l].x() - position_[i].x(), position_[l].y() - position_[i].y()};
 }
 template <>
-inline Vec2<Rational> Posture::offset<Rational>(int i, int l) const {
-  return {Rational(position_[l].x()) - Rational(position_[i].x()), Rational(position_[l].y()) - Rational(position_[i].y())};
+inline Vec2<Dyadic> Posture::offset<Dyadic>(int i, int l) const {
+  return {Dyadic(position_[l].x()) - Dyadic(position_[i].x()), Dyadic(position_[l].y()) - Dyadic(position_[i].y())};
 }
 
 }  // namespace surefoot::stability

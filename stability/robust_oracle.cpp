@@ -28,13 +28,7 @@ bool RobustOracle::equilibrium(const Vector2d& com) const { return PointQuery(po
 
 bool RobustOracle::robust(const Vector2d& com) const {
   PointQuery query(posture_, com, box_);
-  if (!query.equilibrium()) return false;
-  std::uint32_t excluded = query.screened();
-  for (const ModeSpec& spec : posture_.modes()) {
-    if (!(excluded & 1) && query.feasible(spec)) return false;
-    excluded >>= 1;
-  }
-  return true;
+  return query.equilibrium() && !query.any_feasible();
 }
 
 std::vector<ContactMode> RobustOracle::feasible_modes(const Vector2d& com) const {

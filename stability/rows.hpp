@@ -113,6 +113,20 @@ Row<V> force_cross(const ContactTerms<V>& a, int edge, const Row<V>& mc) {
   return {mc.q * c.y - a.sz[edge] * mc.one, a.sz[edge] * mc.p - mc.q * c.x, mc.one * c.x - mc.p * c.y};
 }
 
+/// M c for the twist c = N_a x N_b along which both contacts slide.
+template <class V>
+Row<V> inertia_times_normal_cross(const Frame<V>& frame, int i, int j) {
+  const Row<V> c = normal_cross(frame.at[i], frame.at[j]);
+  return {c.p, c.one, c.q * frame.rho2};
+}
+
+/// z = s_a x s_b for the forces along one edge of each.
+template <class V>
+Row<V> force_pair(const ContactTerms<V>& a, int edge_a, const ContactTerms<V>& b, int edge_b) {
+  const Vec2<Constant<V>>&ca = a.edge[edge_a], &cb = b.edge[edge_b];
+  return {b.sz[edge_b] * ca.y - a.sz[edge_a] * cb.y, a.sz[edge_a] * cb.x - b.sz[edge_b] * ca.x, V(cross(ca, cb))};
+}
+
 /// Hands the rows of a mode to `sink`: first sink.denominator(D) where there is one, then sink.add(row), which returns true
 /// to stop early. sink.add_length(row) takes rows whose p and 1 slots are lengths (rounding-error class of guard.hpp).
 template <class V, class Sink>
@@ -150,11 +164,8 @@ void emit_rows(const Frame<V>& frame, const ModeSpec& spec, Sink& sink) {
     case ModeSpec::Kind::two_slides: {
       const ContactTerms<V>& b = frame.at[spec.j];
       const int edge_a = loaded_edge(spec.sigma_i), edge_b = loaded_edge(spec.sigma_j);
-      const Row<V> c = normal_cross(a, b);
-      const Row<V> mc{c.p, c.one, c.q * frame.rho2};
-      const Vec2<K>&ca = a.edge[edge_a], &cb = b.edge[edge_b];
-      const Row<V> z{b.sz[edge_b] * ca.y - a.sz[edge_a] * cb.y, a.sz[edge_a] * cb.x - b.sz[edge_b] * ca.x,
-                     V(cross(ca, cb))};
+      const Row<V> mc = inertia_times_normal_cross(frame, spec.i, spec.j);
+      const Row<V> z = force_pair(a, edge_a, b, edge_b);
       sink.denominator(dot(z, mc));
       if (spec.sense != 0 && sink.add_length(spec.sense > 0 ? -z : z)) return;
       if (sink.add(force_cross(b, edge_b, mc))) return;

@@ -19,6 +19,22 @@ struct LineRows {
       row[k] = {on_line(f.u, s) * sign, on_line(f.one, s) * sign, on_line(f.w, s) * sign};
     }
   }
+  /// Row k at the wrench that moves from that of m at t to that of n at t + length.
+  bool positive_between(int k, double t, double length, const Margin& m, const Margin& n) const {
+    double c[4] = {0, 0, 0, 0};
+    const auto add = [&](const Quadratic& slot, double l0, double l1) {
+      const Quadratic f = slot.about(t);
+      const double b0 = f.c0, b1 = f.c0 + 0.5 * f.c1 * length, b2 = f.c0 + length * (f.c1 + length * f.c2);
+      c[0] += b0 * l0;
+      c[1] += (2 * b1 * l0 + b0 * l1) / 3;
+      c[2] += (b2 * l0 + 2 * b1 * l1) / 3;
+      c[3] += b2 * l1;
+    };
+    add(row[k].one, 1, 1);
+    add(row[k].u, m.u, n.u);
+    add(row[k].w, m.w, n.w);
+    return c[0] > 0 && c[1] > 0 && c[2] > 0 && c[3] > 0;
+  }
   Margin margin_at(double t) const {
     std::array<Form<double>, 6> g;
     for (int k = 0; k < count; ++k) g[k] = {row[k].u.at(t), row[k].one.at(t), row[k].w.at(t)};
@@ -62,7 +78,7 @@ class March {
 
   /// `begin` is the curve the stretch begins on: an interval that begins there is bounded by it.
   void run(double from, double to, bool was_feasible, const CurveId& begin) {
-    double t = from;
+    double t = from, leap = 0.5 * (to - from);
     Margin m = rows_.margin_at(t);
     feasible_ = was_feasible;
     if ((m.value > 0) != feasible_) cross(from, begin);
@@ -77,10 +93,12 @@ class March {
         if (!(t < to)) return;
       } else {
         stuck = 0;
+        leap = std::min(leap, to - t);
+        if (leap > 4 * reach && leaps(t, leap, m)) continue;
         t = end;
       }
       const Margin next = rows_.margin_at(t);
-      if ((next.value > 0) != feasible_) cross(end, (feasible_ ? next : m).basis);
+      if ((next.value > 0) != feasible_) cross(end, next.basis);
       m = next;
     }
     found_.uncertain = true;
@@ -97,6 +115,21 @@ class March {
       found_.crossings.pop_back();
     else
       found_.crossings.push_back({t, curve, feasible_});
+  }
+
+  /// Where one witness does not last (two rows that are nearly opposite), one that moves on a straight line from v(t) to
+  /// v(t + leap) may: the rows are then cubics, positive if their Bernstein coefficients are.
+  bool leaps(double& t, double& leap, Margin& m) {
+    if (!(m.value > 0)) return false;
+    const Margin far = rows_.margin_at(t + leap);
+    bool holds = far.value > 0;
+    for (int k = 0; k < rows_.count && holds; ++k) holds = rows_.positive_between(k, t, leap, m, far);
+    if (holds) {
+      t += leap;
+      m = far;
+    }
+    leap *= holds ? 4 : 0.25;
+    return holds;
   }
 
   LineRows rows_;
@@ -131,7 +164,8 @@ void solve_line(const RegionMode& mode, int index, double s, double from, double
   found.at_begin = false;
   found.crossings.clear();
   found.uncertain = false;
-  const double step = std::max(line_step * (to - from), 1e-15 * std::max(std::abs(from), std::abs(to)));
+  constexpr double rounding = 1e-13;  // of coordinates: how well a place on the line is known
+  const double step = std::max(line_step * (to - from), rounding * (std::abs(s) + std::abs(from) + std::abs(to)));
   std::array<double, 2> root;
   const Quadratic d = mode.has_denominator ? on_line(mode.denominator, s) : Quadratic{1, 0, 0};
   const int changes = mode.has_denominator ? sign_changes(d, from, to, root) : 0;

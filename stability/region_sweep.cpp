@@ -41,7 +41,7 @@ bool same(const SweepLine& x, const SweepLine& y) {
 }  // namespace
 
 Sweep::Sweep(const RegionModes& modes, std::vector<Vector2d> polygon, double tolerance, double core)
-    : modes_(modes), polygon_(std::move(polygon)), tolerance_(tolerance) {
+    : modes_(modes), polygon_(std::move(polygon)), tolerance_(tolerance), core_(core) {
   s_begin_ = HUGE_VAL, s_end_ = -HUGE_VAL;
   for (std::size_t k = 0; k < polygon_.size(); ++k) {
     const Vector2d a = polygon_[k] - polygon_[0], b = polygon_[(k + 1) % polygon_.size()] - polygon_[0];
@@ -50,21 +50,21 @@ Sweep::Sweep(const RegionModes& modes, std::vector<Vector2d> polygon, double tol
     s_end_ = std::max(s_end_, polygon_[k].x());
   }
   inset_ = inset * (s_end_ - s_begin_);
-  make_strips(core);
+  make_strips();
 }
 
 // ---- where modes can occur --------------------------------------------------------------------------------------
 
 /// Strips of equal width, or, where the polygon is much longer than the place of the contacts, growing with the distance from there.
-void Sweep::make_strips(double core) {
-  const bool graded = s_end_ - s_begin_ > 8 * core;
-  const double from = graded ? std::asinh(s_begin_ / core) : s_begin_, to = graded ? std::asinh(s_end_ / core) : s_end_;
+void Sweep::make_strips() {
+  const bool graded = s_end_ - s_begin_ > 8 * core_;
+  const double from = graded ? std::asinh(s_begin_ / core_) : s_begin_, to = graded ? std::asinh(s_end_ / core_) : s_end_;
   for (int k = 0; k < strip_count; ++k) {
     const auto border = [&](int i) {
       if (i == 0) return s_begin_;
       if (i == strip_count) return s_end_;
       const double at = from + (to - from) * i / strip_count;
-      return graded ? core * std::sinh(at) : at;
+      return graded ? core_ * std::sinh(at) : at;
     };
     Strip strip{border(k), border(k + 1), HUGE_VAL, -HUGE_VAL, 0};
     const auto extend = [&strip](double t) { strip.lo = std::min(strip.lo, t), strip.hi = std::max(strip.hi, t); };
@@ -131,6 +131,11 @@ bool Sweep::chord(double s, SweepLine& line) const {
   return line.lo_edge >= 0 && line.hi_edge >= 0 && line.lo < line.hi;
 }
 
+double Sweep::closeness(const SweepLine& line) const {
+  constexpr double rounding = 1e-12;  // of coordinates: where curves that run along an edge are found
+  return tie * (line.hi - line.lo) + rounding * (std::abs(line.s) + std::abs(line.lo) + std::abs(line.hi) + core_);
+}
+
 SweepLine Sweep::solve(double s) {
   ++lines_;
   SweepLine line;
@@ -148,14 +153,16 @@ SweepLine Sweep::solve(double s) {
     line.uncertain |= set.uncertain;
     line.at.insert(line.at.end(), set.crossings.begin(), set.crossings.end());
   }
-  const double reach = 1e-6 * (line.hi - line.lo);
+  const double reach = 1e-6 * (line.hi - line.lo), close = closeness(line);
   for (Crossing& crossing : line.at) {
     const double exact = polish(modes_, crossing.curve, s, crossing.t, reach);
     if (exact > line.lo && exact < line.hi) crossing.t = exact;
+    if (crossing.t - line.lo < close) line.begin_modes ^= 1u << crossing.curve.mode;
   }
+  // Some modes begin where the equilibrium ends (rolling over a foot): such curves run along the polygon and are no crossings.
+  std::erase_if(line.at, [&](const Crossing& c) { return c.t - line.lo < close || line.hi - c.t < close; });
   std::sort(line.at.begin(), line.at.end(), [](const Crossing& x, const Crossing& y) { return x.t < y.t; });
   // Curves that run together come in the order of their names.
-  const double close = tie * (line.hi - line.lo);
   for (std::size_t k = 0; k < line.at.size();) {
     std::size_t end = k + 1;
     while (end < line.at.size() && line.at[end].t - line.at[end - 1].t < close) ++end;
@@ -186,34 +193,48 @@ double Sweep::meeting(const CurveId& one, const CurveId& other, double s, double
   return NAN;
 }
 
-/// The likely place of an event between two lines that differ; NaN if there is no good guess.
-double Sweep::event(double a, const SweepLine& at_a, double b, const SweepLine& at_b) const {
+/// What is left of two lists of crossings when what they have in common at both ends is taken away. Curves that run together count as
+/// one.
+struct Sweep::Difference {
+  std::vector<Crossing> x, y;
+  bool head = false, tail = false;  // something was taken away there
+};
+
+Sweep::Difference Sweep::difference(const SweepLine& at_a, const SweepLine& at_b) const {
   const auto &x = at_a.at, &y = at_b.at;
   const std::size_t shorter = std::min(x.size(), y.size());
   std::size_t head = 0, tail = 0;
   while (head < shorter && same_curve(x[head], y[head])) ++head;
   while (head + tail < shorter && same_curve(x[x.size() - 1 - tail], y[y.size() - 1 - tail])) ++tail;
-  const std::size_t nx = x.size() - head - tail, ny = y.size() - head - tail;
+  Difference left{{}, {}, head > 0, tail > 0};
+  const auto collapse = [&](const SweepLine& line, std::vector<Crossing>& kept) {
+    for (std::size_t k = head; k + tail < line.at.size(); ++k)
+      if (k == head || line.at[k].t - line.at[k - 1].t >= closeness(line)) kept.push_back(line.at[k]);
+  };
+  collapse(at_a, left.x);
+  collapse(at_b, left.y);
+  return left;
+}
+
+/// The likely place of an event between two lines that differ; NaN if there is no good guess.
+double Sweep::event(double a, const SweepLine& at_a, double b, const SweepLine& at_b) const {
+  const Difference left = difference(at_a, at_b);
+  const auto &x = left.x, &y = left.y;
   const double middle = 0.5 * (a + b);
-  if (nx == 1 && ny == 1) return meeting(x[head].curve, y[head].curve, middle, 0.5 * (x[head].t + y[head].t));
-  if (nx >= 2 && ny >= 2) {
-    if (x[head].curve == y[head].curve)
-      return meeting(x[head + 1].curve, y[head + 1].curve, middle, 0.5 * (x[head + 1].t + y[head + 1].t));
-    return meeting(x[head].curve, x[head + 1].curve, middle, 0.5 * (x[head].t + x[head + 1].t));
+  if (x.size() == 1 && y.size() == 1) return meeting(x[0].curve, y[0].curve, middle, 0.5 * (x[0].t + y[0].t));
+  if (x.size() >= 2 && y.size() >= 2) {
+    if (x[0].curve == y[0].curve) return meeting(x[1].curve, y[1].curve, middle, 0.5 * (x[1].t + y[1].t));
+    return meeting(x[0].curve, x[1].curve, middle, 0.5 * (x[0].t + x[1].t));
   }
-  const bool left = nx > ny;
-  const SweepLine& line = left ? at_a : at_b;
-  const auto& more = line.at;
-  const double s = left ? a : b;
-  if (std::max(nx, ny) >= 2)
-    return meeting(more[head].curve, more[head + 1].curve, s, 0.5 * (more[head].t + more[head + 1].t));
-  if (std::max(nx, ny) == 1) {
-    const Crossing& c = more[head];
-    const bool low = head == 0 && (tail > 0 || c.t - line.lo < line.hi - c.t);
-    const CurveId edge{CurveId::edge, -1, static_cast<signed char>(low ? line.lo_edge : line.hi_edge), -1, -1, 0};
-    return meeting(c.curve, edge, s, c.t);
-  }
-  return NAN;
+  const bool first = x.size() > y.size();
+  const SweepLine& line = first ? at_a : at_b;
+  const auto& more = first ? x : y;
+  const double s = first ? a : b;
+  if (more.size() >= 2) return meeting(more[0].curve, more[1].curve, s, 0.5 * (more[0].t + more[1].t));
+  if (more.empty()) return NAN;
+  const bool low = left.head == left.tail ? more[0].t - line.lo < line.hi - more[0].t : left.tail;
+  const CurveId edge{CurveId::edge, -1, static_cast<signed char>(low ? line.lo_edge : line.hi_edge), -1, -1, 0};
+  return meeting(more[0].curve, edge, s, more[0].t);
 }
 
 void Sweep::refine(double a, const SweepLine& at_a, double b, const SweepLine& at_b, int depth) {
@@ -268,7 +289,7 @@ bool Sweep::curve_points(const Slab& slab, double s, double u, std::vector<doubl
   SweepLine line;
   if (!chord(s, line)) return false;
   const double low = (1 - u) * (1 - 2 * u), middle = 4 * u * (1 - u), high = u * (2 * u - 1);
-  const double length = line.hi - line.lo, close = tie * length;
+  const double length = line.hi - line.lo, close = closeness(line);
   t.resize(slab.at_m.size());
   t.front() = line.lo;
   t.back() = line.hi;

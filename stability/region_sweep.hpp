@@ -53,12 +53,16 @@ class Sweep {
     double a = 0, b = 0, lo = 0, hi = 0;
     std::uint32_t active = 0;  // modes not excluded
   };
-  void make_strips(double core);
+  void make_strips();
   void classify(int mode, int first, int last, double lo, double hi, int t_depth);
   bool chord(double s, SweepLine& line) const;
   std::uint32_t active_at(double s) const;
+  /// Crossings as close as this are taken for one point.
+  double closeness(const SweepLine& line) const;
   SweepLine solve(double s);
   void refine(double a, const SweepLine& at_a, double b, const SweepLine& at_b, int depth);
+  struct Difference;
+  Difference difference(const SweepLine& at_a, const SweepLine& at_b) const;
   double event(double a, const SweepLine& at_a, double b, const SweepLine& at_b) const;
   double meeting(const CurveId& one, const CurveId& other, double s, double t) const;
   bool integrate(double a, double b, const SweepLine& at_a, const SweepLine& at_m, const SweepLine& at_b, bool force);
@@ -68,7 +72,7 @@ class Sweep {
 
   const RegionModes& modes_;
   std::vector<Eigen::Vector2d> polygon_;
-  double tolerance_, area_ = 0;
+  double tolerance_, core_, area_ = 0;
   double s_begin_ = 0, s_end_ = 0, inset_ = 0;
   std::vector<Strip> strips_;
   std::vector<Slab> slabs_;

@@ -31,7 +31,7 @@ namespace surefoot::stability {
 using RegionPolygon = std::vector<Eigen::Vector2d>;
 
 struct RegionOptions {
-  double area_tolerance = 1e-7;  ///< of each area, relative to the area of R_SS(W)
+  double area_tolerance = 1e-6;  ///< of each area, relative to the area of R_SS(W)
   std::optional<Eigen::AlignedBox2d> window;  ///< [m] clip to this; otherwise only what is unbounded is clipped
   bool curves = true;                 ///< rings of cells and boundary polylines; areas alone are cheaper
   double curve_tolerance = 1e-4;      ///< of polylines, relative to the diagonal of R_SS(W)

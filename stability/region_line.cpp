@@ -8,6 +8,21 @@ namespace {
 
 constexpr int most_steps = 400;  // typical: 2 to 20
 
+/// A cubic on [t, t + length] by its Bernstein coefficients.
+struct Cubic {
+  double c[4] = {0, 0, 0, 0};
+  /// Adds f times the linear function with values l0 and l1 at the ends.
+  void add(const Quadratic& given, double t, double length, double l0, double l1) {
+    const Quadratic f = given.about(t);
+    const double b0 = f.c0, b1 = f.c0 + 0.5 * f.c1 * length, b2 = f.c0 + length * (f.c1 + length * f.c2);
+    c[0] += b0 * l0;
+    c[1] += (2 * b1 * l0 + b0 * l1) / 3;
+    c[2] += (b2 * l0 + 2 * b1 * l1) / 3;
+    c[3] += b2 * l1;
+  }
+  bool positive() const { return c[0] > 0 && c[1] > 0 && c[2] > 0 && c[3] > 0; }
+};
+
 /// A mode's rows on a line, with the sign of D applied.
 struct LineRows {
   std::array<Form<Quadratic>, 6> row;
@@ -19,21 +34,37 @@ struct LineRows {
       row[k] = {on_line(f.u, s) * sign, on_line(f.one, s) * sign, on_line(f.w, s) * sign};
     }
   }
-  /// Row k at the wrench that moves from that of m at t to that of n at t + length.
-  bool positive_between(int k, double t, double length, const Margin& m, const Margin& n) const {
-    double c[4] = {0, 0, 0, 0};
-    const auto add = [&](const Quadratic& slot, double l0, double l1) {
-      const Quadratic f = slot.about(t);
-      const double b0 = f.c0, b1 = f.c0 + 0.5 * f.c1 * length, b2 = f.c0 + length * (f.c1 + length * f.c2);
-      c[0] += b0 * l0;
-      c[1] += (2 * b1 * l0 + b0 * l1) / 3;
-      c[2] += (b2 * l0 + 2 * b1 * l1) / 3;
-      c[3] += b2 * l1;
+  /// One witness for all of [t, t + length] that moves on a straight line from that of m to that of n.
+  bool witnessed_between(double t, double length, const Margin& m, const Margin& n) const {
+    for (int k = 0; k < count; ++k) {
+      Cubic f;
+      f.add(row[k].one, t, length, 1, 1);
+      f.add(row[k].u, t, length, m.u, n.u);
+      f.add(row[k].w, t, length, m.w, n.w);
+      if (!f.positive()) return false;
+    }
+    return true;
+  }
+  /// Multipliers likewise: their combination is negative at the corners of the box.
+  bool excluded_between(double t, double length, const Margin& m, const Margin& n) const {
+    std::array<double, 6> y0{}, y1{};
+    const auto spread = [](const Margin& from, std::array<double, 6>& y) {
+      const signed char basis[3] = {from.basis.a, from.basis.b, from.basis.c};
+      double sum = 0;
+      for (int k = 0; k < from.count; ++k) sum += from.y[k];
+      for (int k = 0; k < from.count; ++k) y[basis[k]] = from.y[k] / sum;
     };
-    add(row[k].one, 1, 1);
-    add(row[k].u, m.u, n.u);
-    add(row[k].w, m.w, n.w);
-    return c[0] > 0 && c[1] > 0 && c[2] > 0 && c[3] > 0;
+    spread(m, y0);
+    spread(n, y1);
+    for (const double u : {-1.0, 1.0})
+      for (const double w : {-1.0, 1.0}) {
+        Cubic f;
+        for (int k = 0; k < count; ++k)
+          if (y0[k] != 0 || y1[k] != 0)
+            f.add((row[k].one + row[k].u * u + row[k].w * w) * -1, t, length, y0[k], y1[k]);
+        if (!f.positive()) return false;
+      }
+    return true;
   }
   Margin margin_at(double t) const {
     std::array<Form<double>, 6> g;
@@ -117,13 +148,12 @@ class March {
       found_.crossings.push_back({t, curve, feasible_});
   }
 
-  /// Where one witness does not last (two rows that are nearly opposite), one that moves on a straight line from v(t) to
-  /// v(t + leap) may: the rows are then cubics, positive if their Bernstein coefficients are.
+  /// Where one wrench or one set of multipliers does not last (two rows that are nearly opposite), one that moves on a straight line
+  /// from its value at t to that at t + leap may: what has to keep its sign is then a cubic.
   bool leaps(double& t, double& leap, Margin& m) {
-    if (!(m.value > 0)) return false;
     const Margin far = rows_.margin_at(t + leap);
-    bool holds = far.value > 0;
-    for (int k = 0; k < rows_.count && holds; ++k) holds = rows_.positive_between(k, t, leap, m, far);
+    const bool holds = (far.value > 0) == (m.value > 0) && (m.value > 0 ? rows_.witnessed_between(t, leap, m, far)
+                                                                        : rows_.excluded_between(t, leap, m, far));
     if (holds) {
       t += leap;
       m = far;

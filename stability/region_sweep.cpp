@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace surefoot::stability {
 namespace {
@@ -11,8 +12,9 @@ using Eigen::Vector2d;
 
 constexpr int strip_count = 32;      // of the polygon along the sweep, for the search for modes
 constexpr int deepest_rectangle = 4;  // halvings of a strip's length in that search
-constexpr double inset = 1e-9;       // of the extent: how far beside an event lines are solved
-constexpr double least_slab = 8 * inset;
+constexpr double inset = 1e-8;        // of the extent: how far beside an event lines are solved
+constexpr double least_slab = 4 * inset;
+constexpr double blurred = 64;        // insets: where an event is known but not yet over (curves that part slowly, two events at once)
 constexpr int deepest = 60;          // splits; each halves the slab at least every other time
 
 /// Rule of Gauss and Kronrod with 7 and 15 nodes on [-1, 1]: nodes >= 0 ascending from the middle.
@@ -237,8 +239,29 @@ double Sweep::event(double a, const SweepLine& at_a, double b, const SweepLine& 
   return meeting(more[0].curve, edge, s, more[0].t);
 }
 
+/// Where the event is at an end of the slab but the line beside it does not show it yet: one a little further does.
+bool Sweep::step_over(double a, const SweepLine& at_a, double b, const SweepLine& at_b, double guess, int depth) {
+  const double step = blurred * inset_;
+  if (b - a < 4 * step) return false;
+  if (std::abs(guess - a) <= step) {
+    const SweepLine beyond = solve(a + step);
+    if (same(beyond, at_a)) return false;
+    pass_over(a, a + step, at_a, beyond);
+    refine(a + step, beyond, b, at_b, depth + 1);
+    return true;
+  }
+  if (std::abs(guess - b) <= step) {
+    const SweepLine before = solve(b - step);
+    if (same(before, at_b)) return false;
+    refine(a, at_a, b - step, before, depth + 1);
+    pass_over(b - step, b, before, at_b);
+    return true;
+  }
+  return false;
+}
+
 void Sweep::refine(double a, const SweepLine& at_a, double b, const SweepLine& at_b, int depth) {
-  if (b - a <= least_slab * (s_end_ - s_begin_) || depth > deepest) return pass_over(a, b, at_a);
+  if (b - a <= least_slab * (s_end_ - s_begin_) || depth > deepest) return pass_over(a, b, at_a, at_b);
   double middle = 0.5 * (a + b);
   if (same(at_a, at_b)) {
     const SweepLine at_m = solve(middle);
@@ -255,6 +278,7 @@ void Sweep::refine(double a, const SweepLine& at_a, double b, const SweepLine& a
     refine(guess, after, b, at_b, depth + 1);
     return;
   }
+  if (step_over(a, at_a, b, at_b, guess, depth)) return;
   const SweepLine at_m = solve(middle);
   refine(a, at_a, middle, at_m, depth + 1);
   refine(middle, at_m, b, at_b, depth + 1);
@@ -328,7 +352,7 @@ bool Sweep::integrate(double a, double b, const SweepLine& at_a, const SweepLine
   }
   if (!known && !force) return false;
   if (!known) {
-    pass_over(a, b, at_m);
+    pass_over(a, b, at_a, at_b);
     return true;
   }
   double error = 0;
@@ -344,11 +368,19 @@ bool Sweep::integrate(double a, double b, const SweepLine& at_a, const SweepLine
   return true;
 }
 
-/// A slab too thin to look into is taken as on one of its lines.
-void Sweep::pass_over(double a, double b, const SweepLine& at) {
-  error_ += (b - a) * (at.hi - at.lo);
-  if (!(at.hi > at.lo)) return;
-  Slab slab = make_slab(a, b, at, at, at);
+/// A slab too thin to look into is taken as on one of its lines; by how much the lengths of its pieces differ on the other is the
+/// error.
+void Sweep::pass_over(double a, double b, const SweepLine& at_a, const SweepLine& at_b) {
+  const SweepLine& longer = at_b.hi - at_b.lo > at_a.hi - at_a.lo ? at_b : at_a;
+  if (!(longer.hi > longer.lo)) return;
+  std::map<std::uint32_t, double> length;
+  const auto count = [&length](const Slab& slab, double sign) {
+    for (std::size_t k = 0; k < slab.pieces(); ++k) length[slab.modes[k]] += sign * (slab.at_m[k + 1] - slab.at_m[k]);
+  };
+  count(make_slab(a, b, at_a, at_a, at_a), 1);
+  count(make_slab(a, b, at_b, at_b, at_b), -1);
+  for (const auto& [modes, difference] : length) error_ += (b - a) * std::abs(difference);
+  Slab slab = make_slab(a, b, longer, longer, longer);
   for (std::size_t k = 0; k < slab.integral.size(); ++k) slab.integral[k] = (b - a) * slab.at_m[k];
   slabs_.push_back(std::move(slab));
 }
@@ -363,7 +395,8 @@ void Sweep::run() {
   for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
     const double a = borders[k], b = borders[k + 1];
     if (b - a <= least_slab * (s_end_ - s_begin_)) {
-      if (b > a) pass_over(a, b, solve(0.5 * (a + b)));
+      const SweepLine line = solve(0.5 * (a + b));
+      if (b > a) pass_over(a, b, line, line);
       continue;
     }
     double from = a;

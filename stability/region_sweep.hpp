@@ -46,7 +46,7 @@ class Sweep {
   /// Points (s, t) of a curve of a slab from a to b, ends included, within `tolerance` of the curve.
   std::vector<Eigen::Vector2d> sample(const Slab& slab, std::size_t curve, double tolerance) const;
   /// Relative to the length of a line: crossings as close as this are taken for one point.
-  static constexpr double tie = 1e-8;
+  static constexpr double tie = 1e-9;
 
  private:
   struct Strip {
@@ -61,6 +61,7 @@ class Sweep {
   double closeness(const SweepLine& line) const;
   SweepLine solve(double s);
   void refine(double a, const SweepLine& at_a, double b, const SweepLine& at_b, int depth);
+  bool step_over(double a, const SweepLine& at_a, double b, const SweepLine& at_b, double guess, int depth);
   struct Difference;
   Difference difference(const SweepLine& at_a, const SweepLine& at_b) const;
   double event(double a, const SweepLine& at_a, double b, const SweepLine& at_b) const;
@@ -68,7 +69,7 @@ class Sweep {
   bool integrate(double a, double b, const SweepLine& at_a, const SweepLine& at_m, const SweepLine& at_b, bool force);
   bool curve_points(const Slab& slab, double s, double u, std::vector<double>& t) const;
   Slab make_slab(double a, double b, const SweepLine& at_a, const SweepLine& at_m, const SweepLine& at_b) const;
-  void pass_over(double a, double b, const SweepLine& at);
+  void pass_over(double a, double b, const SweepLine& at_a, const SweepLine& at_b);
 
   const RegionModes& modes_;
   std::vector<Eigen::Vector2d> polygon_;

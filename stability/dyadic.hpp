@@ -13,6 +13,13 @@ class Dyadic {
   Dyadic(double value);  // NOLINT: a double is a dyadic number
   Dyadic(int value) : Dyadic(static_cast<double>(value)) {}  // NOLINT
 
+  // Numbers of up to 512 bits live on the stack: products of four doubles, sums of such.
+  using Integer = boost::multiprecision::number<
+      boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
+                                             boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
+      boost::multiprecision::et_off>;
+  const Integer& mantissa() const { return mantissa_; }
+  long exponent() const { return exponent_; }
   int sign() const { return mantissa_.sign(); }
   bool is_zero() const { return sign() == 0; }
 
@@ -26,12 +33,6 @@ class Dyadic {
   friend Dyadic abs(const Dyadic& a) { return a.sign() < 0 ? -a : a; }
 
  private:
-  // Numbers of up to 512 bits live on the stack: products of four doubles, sums of such.
-  using Integer = boost::multiprecision::number<
-      boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
-                                             boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
-      boost::multiprecision::et_off>;
-
   Dyadic(Integer mantissa, long exponent) : mantissa_(std::move(mantissa)), exponent_(exponent) {}
   static Dyadic sum(const Dyadic& high, const Dyadic& low);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "stability/least_scale.hpp"
 #include "stability/line_test.hpp"
@@ -28,75 +29,165 @@ SafetyFactor zero(const Critical& critical) {
   return sigma;
 }
 
-/// The facet's part of sigma: (z . g at p = q = 0) / (kappa |d/dp| + nu |d/dq|), if less than `best`.
-void lower_by_facet(const Facet& facet, double x, double y, const DisturbanceBox& box, SafetyFactor& best) {
-  const Row<double>& z = facet.z;
-  const double at_gravity = z.one + z.q * x, slope = z.p - z.q * y;
-  const double spread = box.kappa * std::abs(slope) + box.nu * std::abs(z.q);
-  if (!(at_gravity > 0)) {
-    best = zero(Critical::of_equilibrium());
-    return;
+/// The facets' part of sigma at one COM: the least of (z . g at p = q = 0) / (kappa |d/dp| + nu |d/dq|). In doubles where
+/// their error bounds leave safety_factor_accuracy, otherwise in fractions.
+class FacetFactors {
+ public:
+  FacetFactors(const Posture& posture, const Vector2d& com, const DisturbanceBox& box)
+      : posture_(posture), com_(com), box_(box), x_(com.x() - posture.position(0).x()),
+        y_(com.y() - posture.position(0).y()) {
+    // z: 18 u a^2 (times lengths); x, y 1 u, products and sums 5 u of 2 a^2: together below facet_error, 32 u a^2.
+    const double lengths = posture.spread() + std::abs(x_) + std::abs(y_);
+    const bool hopeless = GuardScale(posture.edge_bound(), posture.rho2(), box).at(lengths).nothing_certain();
+    gravity_error_ = hopeless ? infinity : posture.facet_error() * lengths + underflow_slack;
+    spread_error_ = posture.facet_error() * (lengths * box.kappa + box.nu) + underflow_slack;
   }
-  const double value = at_gravity / spread;
-  if (!(value < best.value)) return;
-  best.value = value;
-  best.critical = Critical::of_equilibrium();
-  best.witness = {-std::copysign(value * box.kappa, slope), -std::copysign(value * box.nu, z.q)};
-  // d|slope| = sign(slope) (-z.q dy)
-  best.gradient = Vector2d(z.q, value * box.kappa * std::copysign(1.0, slope) * z.q) / spread;
-}
 
-/// A mode's part of sigma at one COM, in doubles.
-LeastScale mode_scale(const Frame<double>& frame, const ModeSpec& spec, const DisturbanceBox& box, double give_up) {
-  RowSink<double> sink;
-  emit_rows(frame, spec, sink);
-  if (sink.d && *sink.d < 0)
-    for (int k = 0; k < sink.rows.count; ++k) sink.rows.row[k] = -sink.rows.row[k];
-  return least_scale(sink.rows, box, give_up);
-}
-
-Vector2d mode_gradient(const Posture& posture, const Vector2d& com, const ModeSpec& spec, const LeastScale& scale) {
-  RowSink<Dual> sink;
-  emit_rows(posture.dual_frame(com), spec, sink);
-  const double sign = sink.d && sink.d->value < 0 ? -1 : 1;
-  Vector2d gradient = Vector2d::Zero();
-  for (int k = 0; k < scale.active; ++k) {
-    const Dual value = value_at(sink.rows.row[scale.row[k]], scale.at.p, scale.at.q);
-    gradient -= sign * scale.y[k] * Vector2d(value.dx, value.dy);
+  SafetyFactor least() const {
+    SafetyFactor best = unlimited();
+    std::uint32_t uncertain = 0;
+    for (std::size_t k = 0; k < posture_.facets().size() && best.value > 0; ++k)
+      if (!lower_in_doubles(posture_.facets()[k].z, best)) uncertain |= 1u << k;
+    for (std::size_t k = 0; uncertain != 0 && best.value > 0; ++k, uncertain >>= 1)
+      if (uncertain & 1 && may_lower(posture_.facets()[k].z, best)) lower_exactly(posture_.facets()[k], best);
+    return best;
   }
-  return gradient;
+
+ private:
+  struct Terms {
+    double at_gravity, slope, spread;
+  };
+  Terms terms(const Row<double>& z) const {
+    const double slope = z.p - z.q * y_;
+    return {z.one + z.q * x_, slope, box_.kappa * std::abs(slope) + box_.nu * std::abs(z.q)};
+  }
+
+  /// False where doubles cannot tell.
+  bool lower_in_doubles(const Row<double>& z, SafetyFactor& best) const {
+    const auto [at_gravity, slope, spread] = terms(z);
+    if (at_gravity < -gravity_error_) {
+      best = zero(Critical::of_equilibrium());
+      return true;
+    }
+    constexpr double half = safety_factor_accuracy / 2;
+    if (!(at_gravity * half > gravity_error_ && spread * half > spread_error_)) return false;
+    const double value = at_gravity / spread;
+    if (!(value < best.value)) return true;
+    best.value = value;
+    best.critical = Critical::of_equilibrium();
+    best.witness = {-std::copysign(value * box_.kappa, slope), -std::copysign(value * box_.nu, z.q)};
+    // d|slope| = sign(slope) (-z.q dy)
+    best.gradient = Vector2d(z.q, value * box_.kappa * std::copysign(1.0, slope) * z.q) / spread;
+    return true;
+  }
+
+  bool may_lower(const Row<double>& z, const SafetyFactor& best) const {
+    const Terms t = terms(z);
+    return !(t.at_gravity - gravity_error_ > best.value * (t.spread + spread_error_) && std::isfinite(best.value));
+  }
+
+  void lower_exactly(const Facet& facet, SafetyFactor& best) const {
+    const Row<Dyadic> exact = posture_.exact_facet(facet);
+    const Row<Fraction> z{fraction(exact.p), fraction(exact.one), fraction(exact.q)};
+    const Vector2d& origin = posture_.position(0);
+    const Fraction x = Fraction(com_.x()) - Fraction(origin.x()), y = Fraction(com_.y()) - Fraction(origin.y());
+    const Fraction kappa(box_.kappa), nu(box_.nu), at_gravity = z.one + z.q * x, slope = z.p - z.q * y;
+    if (at_gravity <= 0) {
+      best = zero(Critical::of_equilibrium());
+      return;
+    }
+    const Fraction spread = kappa * abs(slope) + nu * abs(z.q);
+    if (spread == 0) return;
+    const Fraction value = at_gravity / spread;
+    if (std::isfinite(best.value) && value >= Fraction(best.value)) return;
+    const auto number = [](const Fraction& k) { return k.convert_to<double>(); };
+    best.value = number(value);
+    best.critical = Critical::of_equilibrium();
+    best.witness = {number(-value * kappa * slope.sign()), number(-value * nu * z.q.sign())};
+    best.gradient = Vector2d(number(z.q / spread), number(value * kappa * slope.sign() * z.q / spread));
+  }
+
+  const Posture& posture_;
+  Vector2d com_;
+  DisturbanceBox box_;
+  double x_, y_, gravity_error_, spread_error_;
+};
+
+/// Beyond the greatest double nothing limits.
+void tidy(SafetyFactor& sigma) {
+  if (sigma.value == infinity) sigma = unlimited();
+  const auto no_negative_zero = [](double& value) { value += 0.0; };
+  for (double* value : {&sigma.witness.p, &sigma.witness.q, &sigma.gradient.x(), &sigma.gradient.y()})
+    no_negative_zero(*value);
 }
 
-void lower_by_mode(const Posture& posture, const Frame<double>& frame, const Vector2d& com, const ModeSpec& spec,
-                   const DisturbanceBox& box, SafetyFactor& best) {
-  const LeastScale scale = mode_scale(frame, spec, box, best.value);
-  if (!(scale.s < best.value)) return;
-  best.value = scale.s;
-  best.critical = Critical::of(posture, spec);
-  best.witness = scale.at;
-  best.gradient = scale.s > 0 ? mode_gradient(posture, com, spec, scale) : Vector2d::Zero();
-}
+/// The least of the modes' scales, below a bound.
+class ModeFactors {
+ public:
+  ModeFactors(const Posture& posture, const Vector2d& com, const DisturbanceBox& box)
+      : posture_(posture), query_(posture, com, box) {}
+
+  void lower(const ModeSpec& spec, double& bound) {
+    if (keep(spec, query_.in_doubles(spec, bound, found_), bound)) return;
+    keep(spec, query_.in_fractions(spec, bound, found_), bound);
+  }
+  /// What doubles leave open is asked again below the bound that the other modes give.
+  void lower_by_all(double& bound) {
+    std::uint32_t open = 0, bit = 1;
+    for (const ModeSpec& spec : posture_.modes()) {
+      if (!keep(spec, query_.in_doubles(spec, bound, found_), bound)) open |= bit;
+      if (bound == 0) return;
+      bit <<= 1;
+    }
+    for (std::size_t k = 0; open != 0 && bound > 0; ++k, open >>= 1)
+      if (open & 1) lower(posture_.modes()[k], bound);
+  }
+  /// What was found; `otherwise` if nothing.
+  SafetyFactor least_or(const SafetyFactor& otherwise) {
+    if (!critical_) return otherwise;
+    return {scale_.s, Critical::of(posture_, *critical_), scale_.at, query_.gradient(*critical_, scale_)};
+  }
+
+ private:
+  /// False where undecided.
+  bool keep(const ModeSpec& spec, ScaleQuery::Outcome outcome, double& bound) {
+    if (outcome == ScaleQuery::Outcome::undecided) return false;
+    if (outcome == ScaleQuery::Outcome::not_below) return true;
+    scale_ = found_;
+    critical_ = &spec;
+    bound = scale_.s;
+    return true;
+  }
+
+  const Posture& posture_;
+  ScaleQuery query_;
+  const ModeSpec* critical_ = nullptr;
+  ModeScale scale_, found_;
+};
+
+/// Makes a value consistent with a verdict, which is exact: a factor above 1 says stable, below 1 not.
+bool near_one(double value) { return std::abs(value - 1) <= 4 * safety_factor_accuracy; }
 
 }  // namespace
 
 SafetyFactor RobustOracle::equilibrium_factor(const Vector2d& com) const {
   if (posture_.flat_cone()) return zero(Critical::of_equilibrium());
-  const double x = com.x() - posture_.position(0).x(), y = com.y() - posture_.position(0).y();
-  SafetyFactor best = unlimited();
-  for (const Facet& facet : posture_.facets()) {
-    lower_by_facet(facet, x, y, box_, best);
-    if (best.value == 0) break;
-  }
+  SafetyFactor best = FacetFactors(posture_, com, box_).least();
+  if (near_one(best.value)) best.value = equilibrium(com) ? std::max(best.value, 1.0) : std::min(best.value, 1.0);
+  tidy(best);
   return best;
 }
 
 SafetyFactor RobustOracle::safety_factor(const Vector2d& com) const {
-  SafetyFactor best = equilibrium_factor(com);
-  const Frame<double> frame = posture_.frame(com);
-  for (const ModeSpec& spec : posture_.modes()) {
-    if (best.value == 0) break;
-    lower_by_mode(posture_, frame, com, spec, box_, best);
-  }
+  if (posture_.flat_cone()) return zero(Critical::of_equilibrium());
+  SafetyFactor best = FacetFactors(posture_, com, box_).least();
+  if (best.value == 0) return best;
+  ModeFactors modes(posture_, com, box_);
+  double bound = best.value;
+  modes.lower_by_all(bound);
+  best = modes.least_or(best);
+  if (near_one(best.value)) best.value = robust(com) ? std::max(best.value, 1.0) : std::min(best.value, 1.0);
+  tidy(best);
   return best;
 }
 
@@ -119,7 +210,7 @@ class LineMinimum {
   Vector2d at(double lambda) const { return from_ + lambda * (to_ - from_); }
 
   double scale(const ModeSpec& spec, double lambda) const {
-    return mode_scale(posture_.frame(from_, to_, lambda), spec, box_, infinity).s;
+    return unproved_scale(posture_.frame(from_, to_, lambda), spec, box_);
   }
 
   /// Modes that cannot lower a bound.
@@ -194,6 +285,25 @@ class LineMinimum {
   LineQuery query_;
 };
 
+/// The search samples; the verdict is certified. A line that is not stable has no factor above 1, a stable one none below.
+LineSafetyFactor made_consistent(const LineSafetyFactor& found, const RobustOracle& oracle, const Vector2d& from,
+                                 const Vector2d& to) {
+  constexpr double sampling_error = 1e-6;
+  if (found.least.value < 1 - sampling_error) return found;
+  LineSafetyFactor result = found;
+  const LineVerdict verdict = oracle.line(from, to);
+  if (verdict.stable()) {
+    result.least.value = std::max(found.least.value, 1.0);
+  } else if (found.least.value > 1) {
+    const SafetyFactor there = oracle.safety_factor(from + verdict.lambda * (to - from));
+    if (there.value <= 1) return {there, verdict.lambda};
+    result.lambda = verdict.lambda;
+    result.least.value = 1;
+    result.least.critical = verdict.cause;
+  }
+  return result;
+}
+
 }  // namespace
 
 LineSafetyFactor RobustOracle::line_safety_factor(const Vector2d& from, const Vector2d& to) const {
@@ -208,10 +318,13 @@ LineSafetyFactor RobustOracle::line_safety_factor(const Vector2d& from, const Ve
     double best = result.least.value, lambda = result.lambda;
     search.lower(spec, best, lambda);
     if (!(best < result.least.value)) continue;
-    result.lambda = lambda;
-    const Vector2d com = search.at(lambda);
-    lower_by_mode(posture_, posture_.frame(com), com, spec, box_, result.least);
+    ModeFactors there(posture_, search.at(lambda), box_);
+    best = result.least.value;
+    there.lower(spec, best);
+    if (best < result.least.value) result = {there.least_or(result.least), lambda};
   }
+  result = made_consistent(result, *this, from, to);
+  tidy(result.least);
   return result;
 }
 

@@ -23,6 +23,31 @@ struct Cubic {
   bool positive() const { return c[0] > 0 && c[1] > 0 && c[2] > 0 && c[3] > 0; }
 };
 
+/// Bernstein coefficients of a quadratic on [t, t + length].
+std::array<double, 3> bernstein(const Quadratic& given, double t, double length) {
+  const Quadratic f = given.about(t);
+  return {f.c0, f.c0 + 0.5 * f.c1 * length, f.c0 + length * (f.c1 + length * f.c2)};
+}
+
+using Bern = std::array<double, 3>;
+Bern scaled(const Bern& f, double k) { return {f[0] * k, f[1] * k, f[2] * k}; }
+bool positive(const Bern& f) { return f[0] > 0 && f[1] > 0 && f[2] > 0; }
+/// a b + c d > 0 by the coefficients of degree 4.
+bool positive(const Bern& a, const Bern& b, const Bern& c, const Bern& d) {
+  const auto coefficient = [](const Bern& f, const Bern& g, int k) {
+    switch (k) {
+      case 0: return f[0] * g[0];
+      case 1: return (f[0] * g[1] + f[1] * g[0]) / 2;
+      case 2: return (f[0] * g[2] + 4 * f[1] * g[1] + f[2] * g[0]) / 6;
+      case 3: return (f[1] * g[2] + f[2] * g[1]) / 2;
+      default: return f[2] * g[2];
+    }
+  };
+  for (int k = 0; k <= 4; ++k)
+    if (!(coefficient(a, b, k) + coefficient(c, d, k) > 0)) return false;
+  return true;
+}
+
 /// A mode's rows on a line, with the sign of D applied.
 struct LineRows {
   std::array<Form<Quadratic>, 6> row;
@@ -65,6 +90,39 @@ struct LineRows {
         if (!f.positive()) return false;
       }
     return true;
+  }
+  /// On a side of the box a row is e + f w, w the free coordinate. Two rows that leave a narrow channel for w:
+  ///   feasible   at the edge w = -e_i / f_i of the channel all other rows are positive (f_i e_l - e_i f_l > 0 for f_i > 0), and
+  ///              |w| < 1; a little inwards row i is positive too
+  ///   excluded   |f_j| row_i + |f_i| row_j does not depend on w and is negative at this side and at the opposite one
+  /// Polynomials of degree 4, wherever the channel leads.
+  bool channel_between(double t, double length, const Margin& m) const {
+    const double end = m.basis.place & 1 ? 1 : -1;
+    const bool free_w = m.basis.place < 2;
+    std::array<Bern, 6> e, f, opposite;
+    for (int k = 0; k < count; ++k) {
+      const Quadratic &fixed = free_w ? row[k].u : row[k].w, &free = free_w ? row[k].w : row[k].u;
+      e[k] = bernstein(row[k].one + fixed * end, t, length);
+      opposite[k] = bernstein(row[k].one + fixed * -end, t, length);
+      f[k] = bernstein(free, t, length);
+    }
+    const int a = m.basis.a, b = m.basis.b;
+    const double sa = f[a][0] < 0 ? -1 : 1, sb = f[b][0] < 0 ? -1 : 1;
+    if (sa == sb || !positive(scaled(f[a], sa)) || !positive(scaled(f[b], sb))) return false;
+    if (!(m.value > 0)) {
+      const Bern fa = scaled(f[a], -sa), fb = scaled(f[b], -sb);  // -|f|
+      return positive(fb, e[a], fa, e[b]) && positive(fb, opposite[a], fa, opposite[b]);
+    }
+    const auto at_edge = [&](int i, double sign) {
+      const Bern fi = scaled(f[i], sign), ei = scaled(e[i], -sign);
+      const Bern low{fi[0] - e[i][0], fi[1] - e[i][1], fi[2] - e[i][2]};
+      const Bern high{fi[0] + e[i][0], fi[1] + e[i][1], fi[2] + e[i][2]};
+      if (!positive(low) || !positive(high)) return false;
+      for (int l = 0; l < count; ++l)
+        if (l != i && !positive(fi, e[l], ei, f[l])) return false;
+      return true;
+    };
+    return at_edge(a, sa) || at_edge(b, sb);
   }
   Margin margin_at(double t) const {
     std::array<Form<double>, 6> g;
@@ -124,8 +182,8 @@ class March {
         if (!(t < to)) return;
       } else {
         stuck = 0;
-        leap = std::min(leap, to - t);
-        if (leap > 4 * reach && leaps(t, leap, m)) continue;
+        leap = std::min(std::max(leap, 3 * reach), 0.999 * (to - t));
+        if (leap > 2 * reach && leaps(t, leap, m)) continue;
         t = end;
       }
       const Margin next = rows_.margin_at(t);
@@ -151,9 +209,11 @@ class March {
   /// Where one wrench or one set of multipliers does not last (two rows that are nearly opposite), one that moves on a straight line
   /// from its value at t to that at t + leap may: what has to keep its sign is then a cubic.
   bool leaps(double& t, double& leap, Margin& m) {
+    const bool channel = m.basis.kind == CurveId::side && rows_.channel_between(t, leap, m);
     const Margin far = rows_.margin_at(t + leap);
-    const bool holds = (far.value > 0) == (m.value > 0) && (m.value > 0 ? rows_.witnessed_between(t, leap, m, far)
-                                                                        : rows_.excluded_between(t, leap, m, far));
+    const bool holds = (far.value > 0) == (m.value > 0) &&
+                       (channel || (m.value > 0 ? rows_.witnessed_between(t, leap, m, far)
+                                                : rows_.excluded_between(t, leap, m, far)));
     if (holds) {
       t += leap;
       m = far;

@@ -21,7 +21,14 @@ class PolySink {
   }
   bool add(const Row<Poly2>& row) {
     const Poly2 one = row.one + row.p * box_.centre.p + row.q * box_.centre.q;
+    const double given = std::max({row.p.size(), row.one.size(), row.q.size()});
+    if (!(given > 0)) {  // theory section 4: a row that vanishes is dropped
+      mode_.row[mode_.count++] = {};
+      return false;
+    }
     mode_.row[mode_.count++].form = {row.p * box_.kappa, one, row.q * box_.nu};
+    const Form<Poly2>& scaled = mode_.row[mode_.count - 1].form;
+    if (!(std::max({scaled.u.size(), scaled.one.size(), scaled.w.size()}) > 0)) mode_.impossible = true;  // 0 > 0 on all of W
     return false;
   }
   bool add_length(const Row<Poly2>& row) { return add(row); }
@@ -66,7 +73,8 @@ double size_of(const Form<Poly2>& f) { return std::max({f.u.size(), f.one.size()
 
 bool nearly_equal(const Poly2& a, const Poly2& b) { return (a - b).size() <= equal_rows; }
 
-/// Rows scaled to size 1; those that vanish identically (theory section 4) or repeat an earlier one are left out.
+/// Rows scaled to size 1; those that vanish identically or repeat an earlier one are left out. Two rows that are opposite
+/// everywhere exclude the mode for every COM.
 void tidy(RegionMode& mode) {
   int kept = 0;
   for (int k = 0; k < mode.count; ++k) {
@@ -79,6 +87,11 @@ void tidy(RegionMode& mode) {
              nearly_equal(row.form.w, other.form.w);
     };
     if (std::any_of(mode.row.begin(), mode.row.begin() + kept, same)) continue;
+    const auto opposite = [&](const RegionRow& other) {
+      return nearly_equal(row.form.u, -other.form.u) && nearly_equal(row.form.one, -other.form.one) &&
+             nearly_equal(row.form.w, -other.form.w);
+    };
+    if (std::any_of(mode.row.begin(), mode.row.begin() + kept, opposite)) mode.impossible = true;
     mode.row[kept++] = row;
   }
   mode.count = kept;
@@ -115,9 +128,9 @@ bool pair(const Form<double>* g, int i, int j, Margin& m) {
   };
   for (int end : {-1, 1}) {
     const double w = -(h.one + end * h.u) / h.w;
-    if (std::abs(w) <= 1) offer(end, w, end < 0 ? 0 : 1);
+    if (std::abs(w) <= 1 + equal_rows) offer(end, w, end < 0 ? 0 : 1);
     const double u = -(h.one + end * h.w) / h.u;
-    if (std::abs(u) <= 1) offer(u, end, end < 0 ? 2 : 3);
+    if (std::abs(u) <= 1 + equal_rows) offer(u, end, end < 0 ? 2 : 3);
   }
   if (!found) return false;
   m.basis = {CurveId::side, -1, static_cast<signed char>(std::min(i, j)), static_cast<signed char>(std::max(i, j)), -1,
@@ -144,7 +157,7 @@ bool triple(const Form<double>* g, int i, int j, int k, Margin& m) {
   const double a1 = f.u - e.u, b1 = f.w - e.w, c1 = e.one - f.one, a2 = f.u - h.u, b2 = f.w - h.w, c2 = h.one - f.one;
   const double det = a1 * b2 - a2 * b1;
   m.u = (c1 * b2 - c2 * b1) / det, m.w = (a1 * c2 - a2 * c1) / det;
-  if (!(std::abs(m.u) <= 1 && std::abs(m.w) <= 1)) return false;
+  if (!(std::abs(m.u) <= 1 + equal_rows && std::abs(m.w) <= 1 + equal_rows)) return false;
   m.value = y[0] * f.one + y[1] * e.one + y[2] * h.one;
   m.basis = {CurveId::inside, -1, static_cast<signed char>(row[0]), static_cast<signed char>(row[1]),
              static_cast<signed char>(row[2]), 0};
@@ -207,6 +220,9 @@ Margin margin(const Form<double>* rows, int count) {
     if (worst < 0) break;
     m = enter(g.data(), m, worst);
   }
+  // Rows that depend on each other have margin 0; rounding must not make that feasible.
+  constexpr double no_margin = 1e-14;  // of rows of size 1
+  if (m.value < no_margin) m.value = std::min(m.value, 0.0);
   const signed char basis[3] = {m.basis.a, m.basis.b, m.basis.c};
   for (int k = 0; k < m.count; ++k) m.y[k] = size[basis[k]] > 0 ? m.y[k] / size[basis[k]] : 0;
   return m;
@@ -299,6 +315,7 @@ bool excluded_with_sign(const RegionMode& mode, double sign, double s0, double d
 
 bool RegionModes::excluded(const RegionMode& mode, double s0, double ds, double t0, double dt, bool& feasible) const {
   feasible = false;
+  if (mode.impossible) return true;
   if (!mode.has_denominator) return excluded_with_sign(mode, 1, s0, ds, t0, dt, feasible);
   const Poly2 d = mode.denominator.about(s0, t0);
   const bool can_be_positive = bound(d, ds, dt) >= 0, can_be_negative = bound(-d, ds, dt) >= 0;

@@ -69,6 +69,7 @@ struct RegionMode {
   ContactMode mode;
   int count = 0;
   std::array<RegionRow, 6> row;
+  bool impossible = false;  ///< the rows exclude each other for every COM
   bool has_denominator = false;
   Poly2 denominator;
 };

@@ -151,10 +151,12 @@ class ScaleSink {
         ends_with_normal_(spec.kind == ModeSpec::Kind::slide), box_(box), level_(level) {}
   void denominator(double d) {
     certain_ = d > errors_.denominator || d < -errors_.denominator;
-    negative_ = d < 0;
+    sign_ = d < 0 ? -1 : 1;
   }
-  bool add(const Row<double>& row) { return push(row, normals_only_ ? errors_.normal : errors_.area); }
-  bool add_length(const Row<double>& row) { return push(row, errors_.length); }
+  [[gnu::always_inline]] bool add(const Row<double>& row) {
+    return push(row, normals_only_ ? errors_.normal : errors_.area);
+  }
+  [[gnu::always_inline]] bool add_length(const Row<double>& row) { return push(row, errors_.length); }
 
   ScaledRows<double> rows;
   bool excluded() const { return excluded_; }
@@ -170,10 +172,9 @@ class ScaleSink {
   [[gnu::always_inline]] bool push(const Row<double>& row, const RowErrors& errors) {
     const int k = rows.count++;
     ScaledRow<double>& scaled = rows.row[k];
-    scaled = {{row.p * box_.kappa, row.q * box_.nu}, row.one};
-    if (negative_) scaled = {{-scaled.a.x, -scaled.a.y}, -scaled.b};
+    scaled = {{row.p * (sign_ * box_.kappa), row.q * (sign_ * box_.nu)}, row.one * sign_};
     error_[k] = &errors;
-    excluded_ = certain_ && -scaled.b > level_ * norm(scaled.a) + error(k, level_);
+    excluded_ = certain_ && -scaled.b > level_ * (norm(scaled.a) + errors.linear) + errors.constant;
     return excluded_ || !certain_;
   }
   const ScaleErrors& errors_;
@@ -181,7 +182,8 @@ class ScaleSink {
   const DisturbanceBox& box_;
   double level_;
   std::array<const RowErrors*, max_rows> error_;
-  bool excluded_ = false, certain_ = true, negative_ = false;
+  bool excluded_ = false, certain_ = true;
+  double sign_ = 1;
 };
 
 /// The level up to which the dual solution proves the mode infeasible. (The rounding of these sums is within the errors.)
@@ -424,23 +426,23 @@ ScaleQuery::Outcome ScaleQuery::in_fractions(const ModeSpec& spec, double bound,
   }
   if (!any) return Outcome::not_below;
   const auto number = [](const Fraction& value) { return value.convert_to<double>(); };
-  scale = {number(found_.s), {number(found_.v.x * Fraction(box_.kappa)), number(found_.v.y * Fraction(box_.nu))}, {}, true};
+  scale = {number(found_->s), {number(found_->v.x * Fraction(box_.kappa)), number(found_->v.y * Fraction(box_.nu))}, {}, true};
   return Outcome::found;
 }
 
 /// Rows are of degree 2 in the COM: differences of values at distance 1 on either side are twice the derivative.
 Vector2d ScaleQuery::exact_gradient(const ModeSpec& spec) {
-  const Fraction p = found_.v.x * Fraction(box_.kappa), q = found_.v.y * Fraction(box_.nu);
+  const Fraction p = found_->v.x * Fraction(box_.kappa), q = found_->v.y * Fraction(box_.nu);
   Vector2d gradient;
   for (int axis = 0; axis < 2; ++axis) {
     Fraction slope(0);
     for (const int side : {1, -1}) {
       RowSink<Dyadic> sink;
       emit_rows(moved(exact_frame(), axis == 0 ? side : 0, axis == 1 ? side : 0), spec, sink);
-      for (int k = 0; k < found_.active; ++k) {
-        const Row<Dyadic>& row = sink.rows.row[found_.row[k]];
+      for (int k = 0; k < found_->active; ++k) {
+        const Row<Dyadic>& row = sink.rows.row[found_->row[k]];
         const Fraction value = fraction(row.p) * p + fraction(row.one) + fraction(row.q) * q;
-        slope += Fraction(negative_ != (side < 0) ? 1 : -1) * found_.y[k] * value;
+        slope += Fraction(negative_ != (side < 0) ? 1 : -1) * found_->y[k] * value;
       }
     }
     gradient[axis] = Fraction(slope / 2).convert_to<double>();

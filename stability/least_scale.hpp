@@ -102,7 +102,7 @@ class ScaleQuery {
   bool nothing_certain_;
   ScaleErrors errors_;
   std::optional<Frame<Dyadic>> exact_;
-  LeastScale<Fraction> found_;  // the last one in fractions, and the sign given to its rows
+  std::optional<LeastScale<Fraction>> found_;  // the last one in fractions, and the sign given to its rows
   bool negative_ = false;
 };
 

@@ -13,18 +13,23 @@ struct Certificate {
   std::array<double, 3> y{};
 };
 
-using Corners = std::array<double, 4>;
+/// Values of a row at the corners of the box, or of each of three rows.
+template <int n>
+using Corners = std::array<double, n>;
+template <int n>
+using AllCorners = std::array<Corners<n>, max_rows>;
 
-Corners corner_values(const Row<double>& row, const DisturbanceBox& box) {
+void set_corner_values(const Row<double>& row, const DisturbanceBox& box, double* at) {
   const double p = row.p * box.kappa, q = row.q * box.nu;
-  return {row.one - p - q, row.one + p - q, row.one + p + q, row.one - p + q};
+  at[0] = row.one - p - q, at[1] = row.one + p - q, at[2] = row.one + p + q, at[3] = row.one - p + q;
 }
 
 /// Whether the combination is negative at every corner by more than its error.
-bool holds(const Certificate& c, const std::array<Corners, max_rows>& at, const RowList<double>& rows) {
+template <int n>
+bool holds(const Certificate& c, const AllCorners<n>& at, const std::array<double, max_rows>& errors) {
   double error = 0;
-  for (int k = 0; k < c.count; ++k) error += c.y[k] * rows.error[c.row[k]];
-  for (int corner = 0; corner < 4; ++corner) {
+  for (int k = 0; k < c.count; ++k) error += c.y[k] * errors[c.row[k]];
+  for (int corner = 0; corner < n; ++corner) {
     double sum = 0;
     for (int k = 0; k < c.count; ++k) sum += c.y[k] * at[c.row[k]][corner];
     if (!(sum < -error)) return false;
@@ -32,10 +37,11 @@ bool holds(const Certificate& c, const std::array<Corners, max_rows>& at, const 
   return true;
 }
 
-/// theta g_i + (1 - theta) g_j < 0 at four corners: an interval of theta, whose middle is taken.
-std::optional<Certificate> pair_certificate(int i, int j, const std::array<Corners, max_rows>& at) {
+/// theta g_i + (1 - theta) g_j < 0 at the corners: an interval of theta, whose middle is taken.
+template <int n>
+std::optional<Certificate> pair_certificate(int i, int j, const AllCorners<n>& at) {
   double low = 0, high = 1;
-  for (int corner = 0; corner < 4; ++corner) {
+  for (int corner = 0; corner < n; ++corner) {
     const double a = at[i][corner], b = at[j][corner];
     if (a >= 0 && b >= 0) return std::nullopt;
     if (a < 0 && b < 0) continue;
@@ -44,10 +50,20 @@ std::optional<Certificate> pair_certificate(int i, int j, const std::array<Corne
       low = std::max(low, limit);
     else
       high = std::min(high, limit);
+    if (!(low < high)) return std::nullopt;
   }
-  if (!(low < high)) return std::nullopt;
   const double theta = 0.5 * (low + high);
   return Certificate{2, {i, j, 0}, {theta, 1 - theta, 0}};
+}
+
+template <int n>
+bool pair_misses(int rows, const AllCorners<n>& at, const std::array<double, max_rows>& errors) {
+  for (int i = 0; i < rows; ++i)
+    for (int j = i + 1; j < rows; ++j) {
+      const std::optional<Certificate> c = pair_certificate<n>(i, j, at);
+      if (c && holds<n>(*c, at, errors)) return true;
+    }
+  return false;
 }
 
 std::optional<Certificate> triple_certificate(int i, int j, int k, const RowList<double>& rows) {
@@ -62,17 +78,16 @@ std::optional<Certificate> triple_certificate(int i, int j, int k, const RowList
   return Certificate{3, {i, j, k}, {y[0] * scale, y[1] * scale, y[2] * scale}};
 }
 
-bool has_certificate(const RowList<double>& rows, const std::array<Corners, max_rows>& at) {
-  const auto good = [&](const std::optional<Certificate>& c) { return c && holds(*c, at, rows); };
+bool has_certificate(const RowList<double>& rows, const AllCorners<4>& at) {
   for (int k = 0; k < rows.count; ++k)
-    if (good(Certificate{1, {k, 0, 0}, {1, 0, 0}})) return true;
+    if (holds<4>({1, {k, 0, 0}, {1, 0, 0}}, at, rows.error)) return true;
+  if (pair_misses<4>(rows.count, at, rows.error)) return true;
   for (int i = 0; i < rows.count; ++i)
     for (int j = i + 1; j < rows.count; ++j)
-      if (good(pair_certificate(i, j, at))) return true;
-  for (int i = 0; i < rows.count; ++i)
-    for (int j = i + 1; j < rows.count; ++j)
-      for (int k = j + 1; k < rows.count; ++k)
-        if (good(triple_certificate(i, j, k, rows))) return true;
+      for (int k = j + 1; k < rows.count; ++k) {
+        const std::optional<Certificate> c = triple_certificate(i, j, k, rows);
+        if (c && holds<4>(*c, at, rows.error)) return true;
+      }
   return false;
 }
 
@@ -82,7 +97,7 @@ bool gravity_is_witness(const RowList<double>& rows) {
   return true;
 }
 
-bool corner_is_witness(const RowList<double>& rows, const std::array<Corners, max_rows>& at) {
+bool corner_is_witness(const RowList<double>& rows, const AllCorners<4>& at) {
   std::array<bool, 4> positive{true, true, true, true};
   for (int k = 0; k < rows.count; ++k)
     for (int corner = 0; corner < 4; ++corner) positive[corner] &= at[k][corner] > rows.error[k];
@@ -103,13 +118,31 @@ bool middle_is_witness(const RowList<double>& rows, const DisturbanceBox& box) {
 
 }  // namespace
 
+bool has_plain_witness(const RowList<double>& rows, const DisturbanceBox& box) {
+  if (gravity_is_witness(rows)) return true;
+  AllCorners<4> at;
+  for (int k = 0; k < rows.count; ++k) set_corner_values(rows.row[k], box, at[k].data());
+  return corner_is_witness(rows, at);
+}
+
 Meeting meets_box(const RowList<double>& rows, const DisturbanceBox& box) {
   if (gravity_is_witness(rows)) return Meeting::yes;
-  std::array<Corners, max_rows> at;
-  for (int k = 0; k < rows.count; ++k) at[k] = corner_values(rows.row[k], box);
+  AllCorners<4> at;
+  for (int k = 0; k < rows.count; ++k) set_corner_values(rows.row[k], box, at[k].data());
   if (corner_is_witness(rows, at)) return Meeting::yes;
   if (has_certificate(rows, at)) return Meeting::no;
   return middle_is_witness(rows, box) ? Meeting::yes : Meeting::uncertain;
+}
+
+bool two_rows_miss_box(const std::array<RowList<double>, 3>& coefficients, const DisturbanceBox& box, double error_factor) {
+  const RowList<double>& first = coefficients[0];
+  AllCorners<12> at;
+  std::array<double, max_rows> errors;
+  for (int k = 0; k < first.count; ++k) {
+    errors[k] = error_factor * first.error[k];
+    for (int c = 0; c < 3; ++c) set_corner_values(coefficients[c].row[k], box, at[k].data() + 4 * c);
+  }
+  return pair_misses<12>(first.count, at, errors);
 }
 
 }  // namespace surefoot::stability

@@ -15,12 +15,12 @@
 
 namespace surefoot::stability {
 
-constexpr int max_rows = 6;
+constexpr int max_rows = 4;  // one slide of three contacts: its direction, two openings, its force
 
 template <class V>
 struct RowList {
   std::array<Row<V>, max_rows> row;
-  std::array<double, max_rows> error{};  // of the row's value anywhere in W; not used for exact numbers
+  std::array<double, max_rows> error;  // of the row's value anywhere in W; not used for exact numbers
   int count = 0;
 };
 
@@ -89,7 +89,14 @@ Polygon<K> feasible_polygon(const RowList<K>& rows, const K& kappa, const K& nu)
 
 enum class Meeting { yes, no, uncertain };
 
+/// Whether every row exceeds its error bound at p = q = 0 or at a corner of the box: quick, but it does not see every witness.
+bool has_plain_witness(const RowList<double>& rows, const DisturbanceBox& box);
+
 /// Whether some point of the box satisfies all rows, with a witness or a certificate beyond the rows' error bounds.
 Meeting meets_box(const RowList<double>& rows, const DisturbanceBox& box);
+
+/// Whether a positive combination of two rows is negative on the box for all three row lists, the Bernstein coefficients of rows on an
+/// interval (the errors are those of the first list, times the factor): no point of the box then satisfies all rows anywhere on it.
+bool two_rows_miss_box(const std::array<RowList<double>, 3>& coefficients, const DisturbanceBox& box, double error_factor);
 
 }  // namespace surefoot::stability

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "stability/cover_conditions.hpp"
 #include "stability/guard.hpp"
@@ -59,142 +58,178 @@ TwistCone<K> twist_cone(const Posture& posture, const ModeSpec& spec) {
   return cone;
 }
 
-/// The cone edges along which a mode has forces.
-struct Edges {
-  struct At {
-    int contact, edge;
-  };
-  std::array<At, 2> at;
-  int count = 0;
-  explicit Edges(const ModeSpec& spec) {
-    if (spec.kind == Kind::all_break) return;
-    if (spec.kind == Kind::roll) {
-      at = {At{spec.i, edge_u}, At{spec.i, edge_w}};
-      count = 2;
-      return;
-    }
-    at[count++] = {spec.i, loaded_edge(spec.sigma_i)};
-    if (spec.kind == Kind::two_slides) at[count++] = {spec.j, loaded_edge(spec.sigma_j)};
+/// The covectors (x, 1, m), m their moment about the COM, that are left by half-planes: a convex polygon.
+class Slice {
+ public:
+  /// Those that press on all of W: nu |m| <= rho^2 (1 - kappa |x|).
+  Slice(double rho2, double kappa, double nu) {
+    const double x = 1 / kappa, m = rho2 / nu;
+    at_[0] = {x, 0}, at_[1] = {0, m}, at_[2] = {-x, 0}, at_[3] = {0, -m};
   }
+  /// Keeps the part where half_plane . (x, 1, m) >= 0; whether there is any.
+  bool clip(const Row<double>& half_plane) {
+    std::array<double, most> value;
+    bool all = true;
+    for (int k = 0; k < count_; ++k) {
+      value[k] = value_at(half_plane, at_[k].x, at_[k].y);
+      all &= value[k] >= 0;
+    }
+    if (all) return true;
+    std::array<Vec2<double>, most> kept;
+    int n = 0;
+    for (int k = 0; k < count_; ++k) {
+      const int next = k + 1 == count_ ? 0 : k + 1;
+      if (value[k] >= 0) kept[n++] = at_[k];
+      if ((value[k] >= 0) == (value[next] >= 0)) continue;
+      const double part = value[k] / (value[k] - value[next]);
+      kept[n++] = {at_[k].x + part * (at_[next].x - at_[k].x), at_[k].y + part * (at_[next].y - at_[k].y)};
+    }
+    count_ = n;
+    at_ = kept;
+    return n > 0;
+  }
+  /// The mean of the vertices as directions: far ones count less.
+  Vec2<double> centre(double inverse_rho) const {
+    Vec2<double> sum{0, 0};
+    double weights = 0;
+    for (int k = 0; k < count_; ++k) {
+      const double weight = 1 / (1 + std::abs(at_[k].x) + std::abs(at_[k].y) * inverse_rho);
+      sum = {sum.x + weight * at_[k].x, sum.y + weight * at_[k].y};
+      weights += weight;
+    }
+    return {sum.x / weights, sum.y / weights};
+  }
+
+ private:
+  static constexpr int most = 4 + 4;  // every half-plane adds one vertex at most
+  std::array<Vec2<double>, most> at_;
+  int count_ = 4;
 };
 
-/// A convex cone in 3-space by its extreme rays in cyclic order.
-struct RayPolygon {
-  std::array<Row<double>, 16> at;
-  int count = 0;
-
-  void add(const Row<double>& ray) {
-    const double size = std::max({std::abs(ray.p), std::abs(ray.one), std::abs(ray.q)});
-    if (count < static_cast<int>(at.size()) && size > 0) at[count++] = {ray.p / size, ray.one / size, ray.q / size};
-  }
-  void clip(const Row<double>& row) {
-    RayPolygon kept;
-    for (int k = 0; k < count; ++k) {
-      const Row<double>&a = at[k], &b = at[k + 1 == count ? 0 : k + 1];
-      const double va = dot(row, a), vb = dot(row, b);
-      if (va >= 0) kept.add(a);
-      if ((va > 0 && vb < 0) || (va < 0 && vb > 0)) {
-        const double wa = std::abs(vb), wb = std::abs(va);
-        kept.add({a.p * wa + b.p * wb, a.one * wa + b.one * wb, a.q * wa + b.q * wb});
-      }
-    }
-    *this = kept;
-  }
-  Row<double> sum() const {
-    Row<double> total{0, 0, 0};
-    for (int k = 0; k < count; ++k) total = {total.p + at[k].p, total.one + at[k].one, total.q + at[k].q};
-    return total;
-  }
-};
-
-/// {Z : Z . M^-1 v >= 0 on W}, moments in units of rho, is spanned by four rays if W has an extent along both axes. An axis
-/// without one is widened (a proposal may ask for too much): otherwise opposite rays would not say which way round.
-RayPolygon positive_on_box(double rho, const DisturbanceBox& box, double widening) {
-  const double kappa = std::max(box.kappa, widening), nu = std::max(box.nu / rho, widening);
-  RayPolygon polygon;
-  polygon.add({1, kappa, 0});
-  polygon.add({0, nu, 1});
-  polygon.add({-1, kappa, 0});
-  polygon.add({0, nu, -1});
-  return polygon;
-}
-
-/// The rows Z . M^-1 v >= 0 at the corners, for moments in units of rho.
-std::array<Row<double>, 4> corner_rows(double rho, const DisturbanceBox& box) {
-  const double k = box.kappa, n = box.nu / rho;
-  return {Row<double>{k, 1, n}, Row<double>{-k, 1, n}, Row<double>{-k, 1, -n}, Row<double>{k, 1, -n}};
-}
-
-Covector propose_breaks(const Frame<double>& frame, const DisturbanceBox& box) {
-  const double rho = std::sqrt(frame.rho2);
-  RayPolygon polygon;
-  const std::array<Row<double>, 3> units{Row<double>{1, 0, 0}, Row<double>{0, 1, 0}, Row<double>{0, 0, 1}};
-  for (int l = 0; l < frame.contacts; ++l) polygon.add(units[l]);
-  for (const Row<double>& corner : corner_rows(rho, box)) {
-    std::array<double, 3> value{};
-    for (int l = 0; l < frame.contacts; ++l) {
-      const ContactTerms<double>& t = frame.at[l];
-      value[l] = corner.p * t.n.x + corner.one * t.n.y + corner.q * (t.nz / rho);
-    }
-    polygon.clip({value[0], value[1], value[2]});
-  }
-  return {polygon.sum(), polygon.count > 0};
-}
-
-/// Z without moment about x_i: (Z_x, Z_y) in the plane, its moment about the COM is r x Z.
-Covector propose_force(const Frame<double>& frame, const ModeSpec& spec, const TwistCone<double>& cone,
-                       const DisturbanceBox& box) {
-  const double rho = std::sqrt(frame.rho2);
-  const Vec2<double>& r = frame.at[spec.i].r;
-  RayPolygon polygon;
-  for (const Row<double>& ray : {Row<double>{1, 0, 0}, Row<double>{0, 1, 0}, Row<double>{-1, 0, 0}, Row<double>{0, -1, 0}})
-    polygon.add(ray);
-  const auto clip = [&](double x, double y, double moment) {  // moment in units of rho
-    polygon.clip({x - moment * r.y / rho, y + moment * r.x / rho, 0});
-  };
-  for (const Row<double>& corner : corner_rows(rho, box)) clip(corner.p, corner.one, corner.q);
-  for (int k = 0; k < cone.count; ++k) polygon.clip({cone.extreme[k].p, cone.extreme[k].one, 0});
-  const Edges edges(spec);
-  for (int k = 0; k < edges.count; ++k) {
-    const auto& [contact, edge] = edges.at[k];
-    const ContactTerms<double>& t = frame.at[contact];
-    clip(-t.edge[edge].x, -t.edge[edge].y, -t.sz[edge] / rho);
-  }
-  return {polygon.sum(), polygon.count > 0};
+/// Moves a twist about x_i to the COM at offset r from it: what Z = (x, 1, m) reads there.
+Row<double> about_com(const Row<double>& twist, const Vec2<double>& r) {
+  return {twist.p + twist.q * r.y, twist.one - twist.q * r.x, twist.q};
 }
 
 }  // namespace
 
-DualCertificate::DualCertificate(const Posture& posture, const ModeSpec& spec, const DisturbanceBox& box)
-    : posture_(posture), spec_(spec), box_(box), cone_(twist_cone<double>(posture, spec)) {}
+LoadedEdges::LoadedEdges(const ModeSpec& spec) {
+  const auto add = [&](signed char contact, int edge) { at[count++] = {contact, static_cast<signed char>(edge)}; };
+  if (spec.kind == Kind::all_break) return;
+  if (spec.kind == Kind::roll) {
+    add(spec.i, edge_u), add(spec.i, edge_w);
+    return;
+  }
+  add(spec.i, loaded_edge(spec.sigma_i));
+  if (spec.kind == Kind::two_slides) add(spec.j, loaded_edge(spec.sigma_j));
+}
+
+DualCertificate::DualCertificate(const LineFrame& line, const ModeSpec& spec)
+    : line_(line), spec_(spec), edges_(spec), cone_(twist_cone<double>(line.posture, spec)) {}
 
 Covector DualCertificate::propose(const Frame<double>& frame) const {
-  if (spec_.kind == Kind::all_break) return propose_breaks(frame, box_);
-  if (cone_.free_rotation) return propose_force(frame, spec_, cone_, box_);
-  if (box_.kappa > 0 && box_.nu > 0) return propose_widened(frame, 0);
+  if (spec_.kind == Kind::all_break) return propose_breaks(frame);
+  if (cone_.free_rotation) return propose_force(frame);
+  if (cone_.count == 0) return {};
+  if (line_.box.kappa > 0 && line_.box.nu > 0) return propose_widened(frame, 0);
+  // Where W has no extent along an axis, the slice is not bounded; a proposal may ask for too much.
   for (const double widening : {1e-3, 1e-6, 1e-9})
     if (const Covector covector = propose_widened(frame, widening); covector.found) return covector;
   return {};
 }
 
 Covector DualCertificate::propose_widened(const Frame<double>& frame, double widening) const {
-  const double rho = std::sqrt(frame.rho2);
+  const double rho = line_.posture.rho();
   const Vec2<double>& r = frame.at[spec_.i].r;
-  RayPolygon polygon = positive_on_box(rho, box_, widening);
-  // In the COM frame: Z . e = Z . (v + alpha (r_y, -r_x)) + Z_z alpha.
-  for (int k = 0; k < cone_.count; ++k) {
-    const Row<double>& e = cone_.extreme[k];
-    polygon.clip({e.p + e.q * r.y, e.one - e.q * r.x, e.q * rho});
+  Slice slice(frame.rho2, std::max(line_.box.kappa, widening), std::max(line_.box.nu, widening * rho));
+  for (int k = 0; k < cone_.count; ++k)
+    if (!slice.clip(about_com(cone_.extreme[k], r))) return {};
+  for (int k = 0; k < edges_.count; ++k) {
+    const ContactTerms<double>& t = frame.at[edges_.at[k].contact];
+    const int edge = edges_.at[k].edge;
+    if (!slice.clip({-frame.rho2 * t.edge[edge].x, -frame.rho2 * t.edge[edge].y, -t.sz[edge]})) return {};
   }
-  const Edges edges(spec_);
-  for (int k = 0; k < edges.count; ++k) {
-    const auto& [contact, edge] = edges.at[k];
-    const ContactTerms<double>& t = frame.at[contact];
-    polygon.clip({-t.edge[edge].x, -t.edge[edge].y, -t.sz[edge] / rho});
+  const Vec2<double> centre = slice.centre(1 / rho);
+  const Row<double> z{centre.x, 1, centre.y - (r.x - r.y * centre.x)};  // about x_i: less r x Z
+  return {z, surely_in_cone(z)};
+}
+
+/// Z without moment about x_i: (x, 1) in the plane, its moment about the COM is r x Z = r_x - r_y x.
+Covector DualCertificate::propose_force(const Frame<double>& frame) const {
+  const Vec2<double>& r = frame.at[spec_.i].r;
+  const double rho2 = frame.rho2;
+  double low = -HUGE_VAL, high = HUGE_VAL;
+  const auto clip = [&](const Row<double>& half_plane) {
+    const double slope = half_plane.p - half_plane.q * r.y, value = half_plane.one + half_plane.q * r.x;
+    const double end = -value / slope;
+    if (slope > 0) low = std::max(low, end);
+    if (slope < 0) high = std::min(high, end);
+    if (slope == 0 && !(value > 0)) high = -HUGE_VAL;
+  };
+  for (const double kappa : {-line_.box.kappa, line_.box.kappa})
+    for (const double nu : {-line_.box.nu, line_.box.nu}) clip({rho2 * kappa, rho2, nu});
+  for (int k = 0; k < cone_.count; ++k) clip({cone_.extreme[k].p, cone_.extreme[k].one, 0});
+  for (int k = 0; k < edges_.count; ++k) {
+    const ContactTerms<double>& t = frame.at[edges_.at[k].contact];
+    const int edge = edges_.at[k].edge;
+    clip({-rho2 * t.edge[edge].x, -rho2 * t.edge[edge].y, -t.sz[edge]});
   }
-  const Row<double> sum = polygon.sum();
-  const double moment = sum.q * rho;  // about the COM; about x_i it is less r x Z
-  return {{sum.p, sum.one, moment - (r.x * sum.one - r.y * sum.p)}, polygon.count >= 3};
+  if (!(low < high)) return {};
+  const double bound = 2 + 2 * std::min(std::abs(low), std::abs(high));  // stands for an end at infinity
+  const Row<double> z{0.5 * (std::max(low, -bound) + std::min(high, bound)), 1, 0};
+  return {z, surely_in_cone(z)};
+}
+
+/// Multipliers of the normals for which Z presses most: a concave function, linear but where Z has no x or no moment.
+Covector DualCertificate::propose_breaks(const Frame<double>& frame) const {
+  const int n = frame.contacts;
+  double most = 0;
+  Covector best;
+  const auto consider = [&](double y0, double y1, double y2) {
+    const std::array<double, 3> y{y0, y1, y2};
+    Vec2<double> d{0, 0};
+    double moment = 0;
+    for (int l = 0; l < n; ++l) {
+      const ContactTerms<double>& t = frame.at[l];
+      d = {d.x + y[l] * t.n.x, d.y + y[l] * t.n.y};
+      moment += y[l] * t.nz;
+    }
+    const double press = frame.rho2 * (d.y - line_.box.kappa * std::abs(d.x)) - line_.box.nu * std::abs(moment);
+    if (!(press > most)) return;
+    most = press;
+    best = {{y0, y1, y2}, true};
+  };
+  const auto single = [&](int l, double y) { return std::array<double, 3>{l == 0 ? y : 0, l == 1 ? y : 0, l == 2 ? y : 0}; };
+  const auto balanced = [&](int i, int j, double value_i, double value_j) {
+    if (!(value_i * value_j < 0)) return;
+    const double share = value_j / (value_j - value_i);
+    const auto yi = single(i, share), yj = single(j, 1 - share);
+    consider(yi[0] + yj[0], yi[1] + yj[1], yi[2] + yj[2]);
+  };
+  for (int i = 0; i < n; ++i) {
+    const auto y = single(i, 1);
+    consider(y[0], y[1], y[2]);
+    for (int j = 0; j < i; ++j) {
+      balanced(i, j, frame.at[i].n.x, frame.at[j].n.x);
+      balanced(i, j, frame.at[i].nz, frame.at[j].nz);
+    }
+  }
+  if (n == 3) {
+    const auto& t = frame.at;
+    const Row<double> y = cross(Row<double>{t[0].n.x, t[1].n.x, t[2].n.x}, Row<double>{t[0].nz, t[1].nz, t[2].nz});
+    const double sum = y.p + y.one + y.q;
+    if (y.p * sum > 0 && y.one * sum > 0 && y.q * sum > 0) consider(y.p / sum, y.one / sum, y.q / sum);
+  }
+  return best;
+}
+
+/// Z not negative on K beyond the rounding error of Z . e: e has components of at most 2 (twice the spread for lengths).
+bool DualCertificate::surely_in_cone(const Row<double>& z) const {
+  const double force = std::abs(z.p) + std::abs(z.one);
+  const double error = row_error_factor * (std::abs(z.q) + 2 * line_.posture.spread() * force) + underflow_slack;
+  for (int k = 0; k < cone_.count; ++k)
+    if (!(dot(z, cone_.extreme[k]) >= error)) return false;
+  return true;
 }
 
 namespace {
@@ -214,66 +249,81 @@ Row<K> covector_about_contact(const Posture& posture, const ModeSpec& spec, cons
 
 /// Conditions (*) between the COMs of two frames.
 template <class K>
-bool holds_between(const ModeSpec& spec, const DisturbanceBox& box, const Row<K>& za, const Frame<K>& fa, const Row<K>& zb,
-                   const Frame<K>& fb, const K& corner_slack, const K& edge_slack) {
+bool holds_between(const ModeSpec& spec, const LoadedEdges& edges, const DisturbanceBox& box, const Row<K>& za,
+                   const Frame<K>& fa, const Row<K>& zb, const Frame<K>& fb, const K& corner_slack, const K& edge_slack) {
   const Vec2<K>&ra = fa.at[spec.i].r, &rb = fb.at[spec.i].r;
   const K half(0.5);
   const std::array<K, 3> moment{moment_about_com(za, ra),
                                 half * (moment_about_com(za, rb) + moment_about_com(zb, ra)), moment_about_com(zb, rb)};
   if (!positive_on_corners(za, zb, moment, fa.rho2, box, corner_slack)) return false;
-  const Edges edges(spec);
   for (int k = 0; k < edges.count; ++k) {
-    const auto& [contact, edge] = edges.at[k];
-    const ContactTerms<K>&ta = fa.at[contact], &tb = fb.at[contact];
-    if (!negative_on_edge(za, zb, moment, ta.edge[edge], ta.sz[edge], tb.sz[edge], fa.rho2, edge_slack)) return false;
+    const ContactTerms<K>&ta = fa.at[edges.at[k].contact], &tb = fb.at[edges.at[k].contact];
+    const int e = edges.at[k].edge;
+    if (!negative_on_edge(za, zb, moment, ta.edge[e], ta.sz[e], tb.sz[e], fa.rho2, edge_slack)) return false;
   }
+  return true;
+}
+
+/// Z not negative on K, exactly.
+bool in_cone(const ModeSpec& spec, const Covector& covector, const TwistCone<Dyadic>& cone) {
+  const Row<double>& z = covector.z;
+  if (spec.kind == Kind::all_break) return z.p >= 0 && z.one >= 0 && z.q >= 0 && z.p + z.one + z.q > 0;
+  if (cone.free_rotation && z.q != 0) return false;
+  const Row<Dyadic> exact{z.p, z.one, z.q};
+  for (int k = 0; k < cone.count; ++k)
+    if (dot(exact, cone.extreme[k]).sign() < 0) return false;
   return true;
 }
 
 }  // namespace
 
-/// Z not negative on K. `error` bounds the rounding error of Z . e for doubles.
-template <class K>
-bool DualCertificate::in_cone(const Covector& covector, const TwistCone<K>& cone, double error) const {
-  const Row<double>& z = covector.z;
-  if (spec_.kind == Kind::all_break) return z.p >= 0 && z.one >= 0 && z.q >= 0 && z.p + z.one + z.q > 0;
-  if (cone.free_rotation && z.q != 0) return false;
-  const Row<K> exact{K(z.p), K(z.one), K(z.q)};
-  const K least(std::is_same_v<K, double> ? error : 0.0);
-  for (int k = 0; k < cone.count; ++k)
-    if (!(dot(exact, cone.extreme[k]) >= least)) return false;
-  return true;
-}
-
 bool DualCertificate::proves(const Covector& a, const Frame<double>& frame_a, const Covector& b,
-                             const Frame<double>& frame_b, double radius) const {
-  if (GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(radius).nothing_certain()) return false;
-  const Row<double> za = covector_about_contact<double>(posture_, spec_, a);
-  const Row<double> zb = covector_about_contact<double>(posture_, spec_, b);
+                             const Frame<double>& frame_b) const {
+  const Posture& posture = line_.posture;
+  const Row<double> za = covector_about_contact<double>(posture, spec_, a);
+  const Row<double> zb = covector_about_contact<double>(posture, spec_, b);
   // Errors as in guard.hpp, for |Z_x| + |Z_y| = force and a moment of at most |Z_0| + R force about any COM of the line.
   // A sum of normals (all_break) has the errors of its terms, however small it is itself: |n| <= 2 in the 1-norm.
   const auto size = [&](const Covector& c, const Row<double>& z) {
     return spec_.kind == Kind::all_break ? 2 * (c.z.p + c.z.one + c.z.q) : std::abs(z.p) + std::abs(z.one);
   };
   const double force = std::max(size(a, za), size(b, zb));
-  const double about_contact = std::max(std::abs(za.q), std::abs(zb.q)) + 2 * posture_.spread() * force;
-  const double moment = about_contact + radius * force;
-  const double factor = row_error_factor * posture_.edge_bound();
-  const double twist_error = row_error_factor * about_contact + underflow_slack;
-  if (!in_cone<double>(a, cone_, twist_error) || (&a != &b && !in_cone<double>(b, cone_, twist_error))) return false;
-  const double area = factor * posture_.rho2() * force;
-  return holds_between<double>(spec_, box_, za, frame_a, zb, frame_b,
-                               area * (1 + box_.kappa) + factor * box_.nu * moment + underflow_slack,
-                               area + factor * radius * moment + underflow_slack);
+  const double about_contact = std::max(std::abs(za.q), std::abs(zb.q)) + 2 * posture.spread() * force;
+  const double moment = about_contact + line_.radius * force;
+  const double factor = row_error_factor * posture.edge_bound(), area = factor * posture.rho2() * force;
+  return holds_between<double>(spec_, edges_, line_.box, za, frame_a, zb, frame_b,
+                               area * (1 + line_.box.kappa) + factor * line_.box.nu * moment + underflow_slack,
+                               area + factor * line_.radius * moment + underflow_slack);
 }
 
 bool DualCertificate::proves(const Covector& a, const Frame<Dyadic>& frame_a, const Covector& b,
                              const Frame<Dyadic>& frame_b) const {
-  const TwistCone<Dyadic> cone = twist_cone<Dyadic>(posture_, spec_);
-  if (!in_cone<Dyadic>(a, cone, 0) || !in_cone<Dyadic>(b, cone, 0)) return false;
+  const TwistCone<Dyadic> cone = twist_cone<Dyadic>(line_.posture, spec_);
+  if (!in_cone(spec_, a, cone) || !in_cone(spec_, b, cone)) return false;
   const Dyadic none(0);
-  return holds_between<Dyadic>(spec_, box_, covector_about_contact<Dyadic>(posture_, spec_, a), frame_a,
-                                 covector_about_contact<Dyadic>(posture_, spec_, b), frame_b, none, none);
+  return holds_between<Dyadic>(spec_, edges_, line_.box, covector_about_contact<Dyadic>(line_.posture, spec_, a), frame_a,
+                               covector_about_contact<Dyadic>(line_.posture, spec_, b), frame_b, none, none);
+}
+
+bool DualCertificate::proves_along_axis(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const {
+  if (spec_.kind == Kind::all_break || cone_.free_rotation) return false;
+  const TwistCone<Dyadic> cone = twist_cone<Dyadic>(line_.posture, spec_);
+  const auto proves = [&](const Dyadic& force, const Dyadic& moment) {  // the same about every point: one of them is 0
+    for (int k = 0; k < cone.count; ++k)
+      if ((force * cone.extreme[k].p + moment * cone.extreme[k].q).sign() <= 0) return false;
+    for (const Frame<Dyadic>* frame : {&frame_a, &frame_b})  // linear along the line
+      for (int k = 0; k < edges_.count; ++k) {
+        const ContactTerms<Dyadic>& t = frame->at[edges_.at[k].contact];
+        const int edge = edges_.at[k].edge;
+        if ((force * t.edge[edge].x + moment * t.sz[edge]).sign() > 0) return false;
+      }
+    return true;
+  };
+  for (const int sign : {1, -1}) {
+    if (line_.box.kappa == 0 && proves(sign, 0)) return true;
+    if (line_.box.nu == 0 && proves(0, sign)) return true;
+  }
+  return false;
 }
 
 }  // namespace surefoot::stability

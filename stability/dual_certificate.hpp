@@ -14,6 +14,7 @@
 
 #include <array>
 
+#include "stability/guard.hpp"
 #include "stability/posture.hpp"
 
 namespace surefoot::stability {
@@ -28,34 +29,57 @@ struct Covector {
 /// Extreme twists of K about contact spec.i, as (velocity of that point, alpha).
 template <class K>
 struct TwistCone {
-  std::array<Row<K>, 3> extreme;
+  std::array<Row<K>, 2> extreme;
   int count = 0;
   bool free_rotation = false;  // K contains both rotations about x_i: Z must have no moment about it
   void add(const Row<K>& twist) { extreme[count++] = twist; }
 };
 
-/// Certificates for one mode of one posture and one box.
+/// The cone edges along which a mode has forces.
+struct LoadedEdges {
+  struct At {
+    signed char contact, edge;
+  };
+  std::array<At, 2> at;
+  int count = 0;
+  explicit LoadedEdges(const ModeSpec& spec);
+};
+
+/// What all COMs of a line have in common.
+struct LineFrame {
+  const Posture& posture;
+  DisturbanceBox box;
+  double radius;  // bounds |r_x| + |r_y| on the line, and the terms it is computed from
+  Guard guard;    // of that radius
+  LineFrame(const Posture& p, const DisturbanceBox& b, double r)
+      : posture(p), box(b), radius(r), guard(GuardScale(p.edge_bound(), p.rho2(), b).at(r)) {}
+};
+
+/// Certificates for one mode on one line.
 class DualCertificate {
  public:
-  DualCertificate(const Posture& posture, const ModeSpec& spec, const DisturbanceBox& box);
+  DualCertificate(const LineFrame& line, const ModeSpec& spec);
 
-  /// A covector well inside the cone of those that satisfy all conditions at the COM of `frame`: only a proposal.
+  /// A covector well inside the cone of those that satisfy all conditions at the COM of `frame`. That it is not negative on K is
+  /// certain; (*) is only proposed.
   Covector propose(const Frame<double>& frame) const;
-  /// Whether `a` at the COM of frame_a and `b` at that of frame_b prove the mode infeasible on the straight line between these
-  /// COMs. In doubles with error bounds for |r_x| + |r_y| <= radius, in rationals exactly.
-  bool proves(const Covector& a, const Frame<double>& frame_a, const Covector& b, const Frame<double>& frame_b,
-              double radius) const;
-  bool proves(const Covector& a, const Frame<Dyadic>& frame_a, const Covector& b,
-              const Frame<Dyadic>& frame_b) const;
+  /// Whether `a` at the COM of frame_a and `b` at that of frame_b, proposed there, prove the mode infeasible on the straight line between
+  /// these COMs: in doubles with error bounds, or exactly.
+  bool proves(const Covector& a, const Frame<double>& frame_a, const Covector& b, const Frame<double>& frame_b) const;
+  bool proves(const Covector& a, const Frame<Dyadic>& frame_a, const Covector& b, const Frame<Dyadic>& frame_b) const;
+  /// Where W has no extent along an axis: whether the covector along that axis, which reads no wrench of W at all, proves the mode
+  /// infeasible between the COMs of the frames. If Z is positive on K, the inequalities (*) need not be strict. Exact.
+  bool proves_along_axis(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const;
 
  private:
   Covector propose_widened(const Frame<double>& frame, double widening) const;
-  template <class K>
-  bool in_cone(const Covector& covector, const TwistCone<K>& cone, double error) const;
+  Covector propose_force(const Frame<double>& frame) const;
+  Covector propose_breaks(const Frame<double>& frame) const;
+  bool surely_in_cone(const Row<double>& z) const;
 
-  const Posture& posture_;
-  const ModeSpec& spec_;
-  DisturbanceBox box_;
+  const LineFrame& line_;
+  ModeSpec spec_;
+  LoadedEdges edges_;
   TwistCone<double> cone_;
 };
 

@@ -1,11 +1,12 @@
 #include "stability/line_test.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
 #include "stability/point_test.hpp"
-#include "stability/screen.hpp"
+#include "stability/line_screen.hpp"
 
 namespace surefoot::stability {
 namespace {
@@ -18,21 +19,21 @@ constexpr double least_interval = 0x1p-40;
 constexpr int max_intervals = 4096, max_exact_intervals = 200;
 
 /// A point of the line with the covector proposed there.
-struct Station {
+struct Proposal {
   double lambda;
   Frame<double> frame;
   Covector covector;
 };
 
 /// Proves intervals from `lambda` on, each twice as long as the last where that works, half as long where not; proves(a, b)
-/// decides between two stations. Returns the lambda reached.
-template <class MakeStation, class Proves>
-double proved_up_to(double lambda, int intervals, MakeStation&& make_station, Proves&& proves) {
-  Station here = make_station(lambda);
+/// decides between two proposals. Returns the lambda reached.
+template <class Propose, class Proves>
+double proved_up_to(double lambda, int intervals, Propose&& propose_at, Proves&& proves) {
+  Proposal here = propose_at(lambda);
   double length = 1 - lambda;
   for (int k = 0; k < intervals && here.covector.found && here.lambda < 1 && length >= least_interval; ++k) {
     const double end = length < 1 - here.lambda ? here.lambda + length : 1;
-    Station there = make_station(end);
+    Proposal there = propose_at(end);
     if (there.covector.found && proves(here, there)) {
       here = there;
       length *= 2;
@@ -66,62 +67,99 @@ LineQuery::LineQuery(const Posture& posture, const Eigen::Vector2d& from, const 
 
 namespace {
 
-/// Screens an interval as a whole, then its halves for the modes that are left.
-class RecursiveScreen {
+/// Proves an interval as a whole, then its halves for the modes that are left.
+class Scanner {
  public:
-  RecursiveScreen(const Posture& posture, const Vector2d& from, const Vector2d& to, double radius,
-                  const DisturbanceBox& box)
-      : posture_(posture), from_(from), to_(to), box_(box),
-        guard_(GuardScale(posture.edge_bound(), posture.rho2(), box).at(radius)) {}
+  Scanner(const LineFrame& line, const Vector2d& from, const Vector2d& to, bool seeks_feasible)
+      : line_(line), certificates_(line), from_(from), to_(to), seeks_feasible_(seeks_feasible) {}
 
-  std::uint32_t excluded(double a, const Frame<double>& at_a, double b, const Frame<double>& at_b, std::uint32_t wanted,
-                         int halvings) const {
-    Screen<false> screen(at_a, at_b, box_, guard_);
-    std::uint32_t whole = 0, bit = 1;
-    for (const ModeSpec& spec : posture_.modes()) {
-      if ((wanted & bit) && screen.excludes(spec)) whole |= bit;
-      bit <<= 1;
-    }
-    const std::uint32_t left = wanted & ~whole;
-    if (left == 0 || halvings == 0) return whole;
-    const double middle = 0.5 * (a + b);
-    const Frame<double> at_middle = frame(middle);
-    const std::uint32_t first = excluded(a, at_a, middle, at_middle, left, halvings - 1);
-    if (first == 0) return whole;
-    return whole | excluded(middle, at_middle, b, at_b, first, halvings - 1);
+  LineScan scan() {
+    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << line_.posture.modes().size()) - 1);
+    Station start = station(0), end = station(1);
+    result_.excluded = excluded_between(start, end, all, 0);
+    if (result_.feasible_mode < 0 && (line_.box.kappa == 0 || line_.box.nu == 0)) exclude_along_axis(all & ~result_.excluded);
+    return result_;
   }
-  Frame<double> frame(double lambda) const { return posture_.frame(from_, to_, lambda); }
 
  private:
-  const Posture& posture_;
+  static constexpr int most_halvings = 7;
+
+  Station station(double lambda) const { return {lambda, line_.posture.frame(from_, to_, lambda)}; }
+
+  std::uint32_t excluded_between(Station& a, Station& b, std::uint32_t wanted, int halvings) {
+    Station middle = station(0.5 * (a.lambda() + b.lambda()));
+    LineInterval interval(certificates_, a, middle, b);
+    std::uint32_t whole = 0;
+    for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
+      const int k = std::countr_zero(rest);
+      if (interval.excludes(k)) whole |= 1u << k;
+    }
+    const std::uint32_t left = wanted & ~whole;
+    if (left == 0) return whole;
+    if (halvings == most_halvings) {
+      for (std::uint32_t rest = left; rest != 0; rest &= rest - 1) result_.reached[std::countr_zero(rest)] = a.lambda();
+      return whole;
+    }
+    if (seeks_feasible_) {
+      if (halvings == 0 && (meets_witness(a, left) || meets_witness(b, left))) return whole;
+      if (meets_witness(middle, left)) return whole;
+    }
+    const std::uint32_t first = excluded_between(a, middle, left, halvings + 1);
+    if (first == 0 || result_.feasible_mode >= 0) return whole;
+    return whole | excluded_between(middle, b, first, halvings + 1);
+  }
+
+  void exclude_along_axis(std::uint32_t modes) {
+    if (modes == 0) return;
+    const Frame<Dyadic> a = line_.posture.exact_frame(from_), b = line_.posture.exact_frame(to_);
+    for (std::uint32_t rest = modes; rest != 0; rest &= rest - 1) {
+      const int k = std::countr_zero(rest);
+      if (certificates_.of_mode(k).proves_along_axis(a, b)) result_.excluded |= 1u << k;
+    }
+  }
+
+  bool meets_witness(Station& at, std::uint32_t modes) {
+    for (std::uint32_t rest = modes; rest != 0; rest &= rest - 1) {
+      const int k = std::countr_zero(rest);
+      if (!at.has_witness(line_, k)) continue;
+      result_.feasible_mode = k;
+      result_.feasible_at = at.lambda();
+      return true;
+    }
+    return false;
+  }
+
+  const LineFrame& line_;
+  LineCertificates certificates_;
   const Vector2d &from_, &to_;
-  const DisturbanceBox& box_;
-  Guard guard_;
+  bool seeks_feasible_;
+  LineScan result_;
 };
 
 }  // namespace
 
-std::uint32_t LineQuery::screened(double s) const {
-  constexpr int halvings = 6;
+LineScan LineQuery::scan(double s, bool seeks_feasible) const {
   const DisturbanceBox box{s * box_.kappa, s * box_.nu};
-  const RecursiveScreen screen(posture_, from_, to_, radius_, box);
-  const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << posture_.modes().size()) - 1);
-  return screen.excluded(0, screen.frame(0), 1, screen.frame(1), all, halvings);
+  const LineFrame line(posture_, box, radius_);
+  if (line.guard.nothing_certain()) return {};
+  return Scanner(line, from_, to_, seeks_feasible).scan();
 }
 
 double LineQuery::excluded_up_to(const ModeSpec& spec, double s, double lambda) const {
-  const DualCertificate certificate(posture_, spec, {s * box_.kappa, s * box_.nu});
-  const auto station = [&](double at) {
+  const LineFrame line(posture_, {s * box_.kappa, s * box_.nu}, radius_);
+  if (line.guard.nothing_certain()) return lambda;
+  const DualCertificate certificate(line, spec);
+  const auto propose = [&](double at) {
     const Frame<double> frame = posture_.frame(from_, to_, at);
-    return Station{at, frame, certificate.propose(frame)};
+    return Proposal{at, frame, certificate.propose(frame)};
   };
-  return proved_up_to(lambda, max_intervals, station, [&](const Station& a, const Station& b) {
-    return certificate.proves(a.covector, a.frame, b.covector, b.frame, radius_);
+  return proved_up_to(lambda, max_intervals, propose, [&](const Proposal& a, const Proposal& b) {
+    return certificate.proves(a.covector, a.frame, b.covector, b.frame);
   });
 }
 
-LineMode LineQuery::feasible(const ModeSpec& spec) const {
-  const double lambda = excluded_up_to(spec, 1, 0);
+LineMode LineQuery::feasible(const ModeSpec& spec, double from) const {
+  const double lambda = excluded_up_to(spec, 1, from);
   if (lambda >= 1) return {LineOutcome::excluded, 0};
   if (const auto found = probe_beyond(lambda, [&](double at) { return has_witness(spec, at); }))
     return {LineOutcome::feasible, *found};
@@ -130,8 +168,7 @@ LineMode LineQuery::feasible(const ModeSpec& spec) const {
 
 /// A wrench for which the mode is feasible at lambda, beyond the error bounds.
 bool LineQuery::has_witness(const ModeSpec& spec, double lambda) const {
-  const Guard guard = GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(radius_);
-  PointSink sink(guard, box_);
+  PointSink sink(GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(radius_), box_);
   emit_rows(posture_.frame(from_, to_, lambda), spec, sink);
   return !sink.excluded() && sink.sign_certain() && meets_box(sink.rows, box_) == Meeting::yes;
 }
@@ -146,12 +183,13 @@ LineMode LineQuery::feasible_exactly(const ModeSpec& spec) const {
   const auto feasible_here = [&](double at) { return has_witness_exactly(spec, at); };
   for (const double end : {0.0, 1.0})
     if (feasible_here(end)) return {LineOutcome::feasible, end};
-  const DualCertificate certificate(posture_, spec, box_);
-  const auto station = [&](double at) {
+  const LineFrame line(posture_, box_, radius_);
+  const DualCertificate certificate(line, spec);
+  const auto propose = [&](double at) {
     const Frame<double> frame = posture_.frame(from_, to_, at);
-    return Station{at, frame, certificate.propose(frame)};
+    return Proposal{at, frame, certificate.propose(frame)};
   };
-  const double reached = proved_up_to(0, max_exact_intervals, station, [&](const Station& a, const Station& b) {
+  const double reached = proved_up_to(0, max_exact_intervals, propose, [&](const Proposal& a, const Proposal& b) {
     return certificate.proves(a.covector, posture_.exact_frame(from_, to_, a.lambda), b.covector,
                               posture_.exact_frame(from_, to_, b.lambda));
   });

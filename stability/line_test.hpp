@@ -2,6 +2,7 @@
 // Intervals of lambda are proved one after the other with dual certificates (dual_certificate.hpp), found at their ends.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "stability/dual_certificate.hpp"
@@ -21,14 +22,24 @@ struct LineMode {
   double lambda = 0;
 };
 
+/// What a scan of the whole line with fast certificates found.
+struct LineScan {
+  std::uint32_t excluded = 0;            // bit k: mode k is infeasible on the whole line
+  std::array<double, Posture::most_modes> reached{};      // for the others: infeasible up to this lambda at least
+  int feasible_mode = -1;                // feasible at `feasible_at`, if not -1
+  double feasible_at = 0;
+};
+
 class LineQuery {
  public:
   LineQuery(const Posture& posture, const Eigen::Vector2d& from, const Eigen::Vector2d& to, const DisturbanceBox& box);
 
-  /// Modes that shared certificates exclude on the whole line for the box scaled by s (screen.hpp).
-  std::uint32_t screened(double s = 1) const;
-  /// Decided for the doubles given: doubles with error bounds first, rationals where these cannot tell.
-  LineMode feasible(const ModeSpec& spec) const;
+  /// Shared and closed-form certificates (line_screen.hpp) for the box scaled by s; stops at a feasible mode if it seeks and
+  /// meets one.
+  LineScan scan(double s = 1, bool seeks_feasible = true) const;
+  /// Decided for the doubles given: doubles with error bounds first, exact numbers where these cannot tell. The mode is known to
+  /// be infeasible up to `from`.
+  LineMode feasible(const ModeSpec& spec, double from = 0) const;
   /// Up to which lambda, from `lambda` on, the mode is proved infeasible for the box scaled by s. Doubles only.
   double excluded_up_to(const ModeSpec& spec, double s, double lambda) const;
 

@@ -45,12 +45,12 @@ void PointQuery::make_frame() {
   guard_ = GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(greatest_offset(frame_));
 }
 
-bool PointQuery::any_feasible() {
+const ModeSpec* PointQuery::any_feasible() {
   make_frame();
   Screen<true> screen(frame_, frame_, box_, guard_);
   for (const ModeSpec& spec : posture_.modes())
-    if (!screen.excludes(spec) && feasible(spec)) return true;
-  return false;
+    if (!screen.excludes(spec) && feasible(spec)) return &spec;
+  return nullptr;
 }
 
 const Frame<Dyadic>& PointQuery::exact_frame() {

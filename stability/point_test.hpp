@@ -20,8 +20,8 @@ class PointQuery {
   /// z . g > 0 at every corner of W for every facet (theory section 3).
   bool equilibrium() const;
   bool feasible(const ModeSpec& spec);
-  /// Whether any mode of the posture is feasible: shared certificates first (screen.hpp).
-  bool any_feasible();
+  /// The first mode of the posture that is feasible, or null: shared certificates first (screen.hpp).
+  const ModeSpec* any_feasible();
 
  private:
   bool feasible_exactly(const ModeSpec& spec);
@@ -63,7 +63,7 @@ class PointSink {
     rows.row[rows.count++] = row;
     return excluded_ || !sign_certain_;
   }
-  const Guard& guard_;
+  const Guard guard_;
   const DisturbanceBox& box_;
   bool excluded_ = false, sign_certain_ = true, negative_ = false;
 };

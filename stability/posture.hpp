@@ -20,6 +20,7 @@ struct Facet {
 
 class Posture {
  public:
+  static constexpr int most_modes = 22;  // of three contacts: all break, 3 rolls, 6 slides, 12 pairs of slides
   /// Asserts on non-finite numbers, a count outside 1..3, negative friction, zero normals, rho <= 0.
   Posture(std::span<const Contact> contacts, double radius_of_gyration);
 
@@ -32,6 +33,7 @@ class Posture {
   double facet_error() const { return facet_error_; }
   double spread() const { return spread_; }  ///< greatest |d_x| + |d_y| of contacts from contact 1 [m]
   double edge_bound() const { return edge_bound_; }  ///< a = 1 + max mu
+  double rho() const { return rho_; }
   double rho2() const { return rho2_; }
   const Eigen::Vector2d& position(int i) const { return position_[i]; }
 
@@ -78,7 +80,7 @@ class Posture {
   std::array<double, 3> friction_;
   std::array<Row<double>, 6> rays_;     // about contact 1: (C, d x C)
   std::array<Facet, 15> facets_;
-  std::array<ModeSpec, 22> modes_;  // the first mode_count_ of them; likewise facets_: the rest is left uninitialised
+  std::array<ModeSpec, most_modes> modes_;  // the first mode_count_ of them; likewise facets_: the rest is left uninitialised
   std::array<std::array<signed char, 3>, 3> turn_sign_{};
   signed char triple_sign_ = 0;  // of N_3 . (N_1 x N_2)
 };

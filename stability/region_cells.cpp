@@ -19,7 +19,7 @@ struct Piece {
 
 class Cells {
  public:
-  Cells(const Sweep& sweep, double tolerance) : sweep_(sweep), slabs_(sweep.slabs()), tolerance_(tolerance) {}
+  Cells(Sweep& sweep, double tolerance) : sweep_(sweep), slabs_(sweep.slabs()), tolerance_(tolerance) {}
 
   SweepCells collect() {
     list_pieces();
@@ -221,7 +221,7 @@ class Cells {
     return finished;
   }
 
-  const Sweep& sweep_;
+  Sweep& sweep_;
   const std::vector<Slab>& slabs_;
   double tolerance_;
   std::vector<Piece> pieces_;
@@ -231,6 +231,6 @@ class Cells {
 
 }  // namespace
 
-SweepCells collect_cells(const Sweep& sweep, double tolerance) { return Cells(sweep, tolerance).collect(); }
+SweepCells collect_cells(Sweep& sweep, double tolerance) { return Cells(sweep, tolerance).collect(); }
 
 }  // namespace surefoot::stability

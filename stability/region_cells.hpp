@@ -32,7 +32,7 @@ struct SweepCells {
 /// Cells smaller than this part of the polygon are rounding where curves coincide; they are dropped.
 constexpr double least_cell = 1e-9;
 
-/// Rings and curves only with tolerance > 0 [m].
-SweepCells collect_cells(const Sweep& sweep, double tolerance);
+/// Rings and curves only with tolerance > 0 [m]; they may need further lines.
+SweepCells collect_cells(Sweep& sweep, double tolerance);
 
 }  // namespace surefoot::stability

@@ -260,12 +260,36 @@ bool Sweep::step_over(double a, const SweepLine& at_a, double b, const SweepLine
   return false;
 }
 
-void Sweep::refine(double a, const SweepLine& at_a, double b, const SweepLine& at_b, int depth) {
-  if (b - a <= least_slab * (s_end_ - s_begin_) || depth > deepest) return pass_over(a, b, at_a, at_b);
+/// On degenerate ground one curve has several names (rows that vanish together): what is named differently on two lines gets the
+/// name of the first where that curve runs through the same point of the second.
+void Sweep::reconcile(const SweepLine& first, SweepLine& second) const {
+  if (first.at.size() != second.at.size()) return;
+  const double close = closeness(second);
+  for (std::size_t k = 0; k < first.at.size(); ++k) {
+    const Crossing& x = first.at[k];
+    Crossing& y = second.at[k];
+    if (x.curve == y.curve || x.curve.mode != y.curve.mode || x.enter != y.enter) continue;
+    if (std::abs(polish(modes_, x.curve, second.s, y.t, close) - y.t) <= close) y.curve = x.curve;
+  }
+}
+
+/// Slabs thinner than this are not looked into; on ground where curves coincide beyond what reconcile() sees through the work is
+/// limited by looking less closely, which area_error shows.
+double Sweep::thinnest() const {
+  constexpr int many = 1000;  // lines; typical: 100
+  const double part = lines_ < many ? least_slab : lines_ < 2 * many ? 1e-5 : lines_ < 4 * many ? 1e-3 : 1;
+  return part * (s_end_ - s_begin_);
+}
+
+void Sweep::refine(double a, const SweepLine& at_a, double b, const SweepLine& given_b, int depth) {
+  if (b - a <= thinnest() || depth > deepest) return pass_over(a, b, at_a, given_b);
+  SweepLine at_b = given_b;
+  reconcile(at_a, at_b);
   double middle = 0.5 * (a + b);
   if (same(at_a, at_b)) {
-    const SweepLine at_m = solve(middle);
-    const bool force = b - a <= 64 * least_slab * (s_end_ - s_begin_);
+    SweepLine at_m = solve(middle);
+    reconcile(at_a, at_m);
+    const bool force = b - a <= 64 * thinnest();
     if (same(at_a, at_m) && integrate(a, b, at_a, at_m, at_b, force)) return;
     refine(a, at_a, middle, at_m, depth + 1);
     refine(middle, at_m, b, at_b, depth + 1);
@@ -335,6 +359,7 @@ bool Sweep::integrate(double a, double b, const SweepLine& at_a, const SweepLine
     const double s = a + (b - a) * share(u);
     if (!curve_points(slab, s, u, t)) {
       SweepLine line = solve(s);
+      reconcile(at_m, line);
       known &= same(line, at_m);
       if (!known) return;
       t.assign(1, line.lo);
@@ -413,21 +438,22 @@ void Sweep::run() {
   }
 }
 
-std::vector<Vector2d> Sweep::sample(const Slab& slab, std::size_t curve, double tolerance) const {
+std::vector<Vector2d> Sweep::sample(const Slab& slab, std::size_t curve, double tolerance) {
   const bool edge = curve == 0 || curve + 1 == slab.at_m.size();
   if (edge || slab.at_a == slab.at_b) return {{slab.a, slab.at_a[curve]}, {slab.b, slab.at_b[curve]}};
   struct Point {
     double u;
     Vector2d at;
   };
+  std::vector<double> t;
   const auto point = [&](double u) {
     const double s = slab.a + (slab.b - slab.a) * share(u);
+    if (curve_points(slab, s, u, t)) return Point{u, {s, t[curve]}};
+    SweepLine line = solve(s);
+    if (line.at.size() == slab.curves.size()) return Point{u, {s, line.at[curve - 1].t}};
     const double guess = (1 - u) * (1 - 2 * u) * slab.at_a[curve] + 4 * u * (1 - u) * slab.at_m[curve] +
                          u * (2 * u - 1) * slab.at_b[curve];
-    SweepLine line;
-    chord(s, line);
-    const double t = polish(modes_, slab.curves[curve - 1].curve, s, guess, line.hi - line.lo);
-    return Point{u, {s, t >= line.lo && t <= line.hi ? t : guess}};
+    return Point{u, {s, guess}};
   };
   std::vector<Vector2d> points{{slab.a, slab.at_a[curve]}};
   constexpr int deepest_split = 10;

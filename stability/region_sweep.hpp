@@ -44,7 +44,7 @@ class Sweep {
   bool uncertain() const { return uncertain_; }
 
   /// Points (s, t) of a curve of a slab from a to b, ends included, within `tolerance` of the curve.
-  std::vector<Eigen::Vector2d> sample(const Slab& slab, std::size_t curve, double tolerance) const;
+  std::vector<Eigen::Vector2d> sample(const Slab& slab, std::size_t curve, double tolerance);
   /// Relative to the length of a line: crossings as close as this are taken for one point.
   static constexpr double tie = 1e-9;
 
@@ -61,6 +61,8 @@ class Sweep {
   double closeness(const SweepLine& line) const;
   SweepLine solve(double s);
   void refine(double a, const SweepLine& at_a, double b, const SweepLine& at_b, int depth);
+  void reconcile(const SweepLine& first, SweepLine& second) const;
+  double thinnest() const;
   bool step_over(double a, const SweepLine& at_a, double b, const SweepLine& at_b, double guess, int depth);
   struct Difference;
   Difference difference(const SweepLine& at_a, const SweepLine& at_b) const;

@@ -49,18 +49,19 @@ LineVerdict RobustOracle::line(const Vector2d& from, const Vector2d& to) const {
   using Outcome = LineVerdict::Outcome;
   if (!equilibrium(from)) return {Outcome::unstable, 0, Critical::of_equilibrium()};
   if (!equilibrium(to)) return {Outcome::unstable, 1, Critical::of_equilibrium()};
+  const auto unstable = [&](const ModeSpec& spec, double lambda) {
+    return LineVerdict{Outcome::unstable, lambda, Critical::of(posture_, spec)};
+  };
   const LineQuery query(posture_, from, to, box_);
-  std::uint32_t excluded = query.screened();
+  const LineScan scan = query.scan();
+  if (scan.feasible_mode >= 0) return unstable(posture_.modes()[scan.feasible_mode], scan.feasible_at);
   LineVerdict verdict{Outcome::stable, 0, {}};
-  for (const ModeSpec& spec : posture_.modes()) {
-    const bool screened = excluded & 1;
-    excluded >>= 1;
-    if (screened) continue;
-    const LineMode mode = query.feasible(spec);
-    if (mode.outcome == LineOutcome::excluded) continue;
-    const bool feasible = mode.outcome == LineOutcome::feasible;
-    verdict = {feasible ? Outcome::unstable : Outcome::uncertain, mode.lambda, Critical::of(posture_, spec)};
-    if (feasible) return verdict;
+  for (std::size_t k = 0; k < posture_.modes().size(); ++k) {
+    if (scan.excluded >> k & 1) continue;
+    const ModeSpec& spec = posture_.modes()[k];
+    const LineMode mode = query.feasible(spec, scan.reached[k]);
+    if (mode.outcome == LineOutcome::feasible) return unstable(spec, mode.lambda);
+    if (mode.outcome == LineOutcome::uncertain) verdict = {Outcome::uncertain, mode.lambda, Critical::of(posture_, spec)};
   }
   return verdict;
 }

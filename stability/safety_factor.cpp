@@ -214,7 +214,7 @@ class LineMinimum {
   }
 
   /// Modes that cannot lower a bound.
-  std::uint32_t not_below(double best) const { return query_.screened(confirmed_level(best)); }
+  std::uint32_t not_below(double best) const { return query_.scan(confirmed_level(best), false).excluded; }
 
   /// Lowers `best` to the mode's least scale on the line, if that is lower. Where certificates at the level of the bound
   /// stop, the scale is evaluated: lower than the bound, it is followed downhill to a local minimum, which becomes the bound.

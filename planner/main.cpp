@@ -15,6 +15,7 @@
 
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
+#include "planner/region_command.hpp"
 #include "planner/search.hpp"
 #include "terrain/document.hpp"
 
@@ -39,6 +40,7 @@ std::string version() {
 
 struct Arguments {
   PlanArguments plan;
+  RegionArguments region;
   std::string check_scene, check_plan, query_file = "-";
 };
 
@@ -87,6 +89,21 @@ CLI::App* add_query(CLI::App& app, Arguments& a) {
   return query;
 }
 
+CLI::App* add_region(CLI::App& app, RegionArguments& a) {
+  CLI::App* region = app.add_subcommand("region", "Stability regions of a stance: where the COM may be, and what forbids the rest");
+  region->add_option("SCENE", a.scene, "scene file (YAML), - for standard input");
+  region->add_option("--posture", a.posture, "instead of a scene: a query line without com (JSON)")->type_name("FILE");
+  region->add_option("--stance", a.stance, "legs that stand (default: the scene's first stance)")->type_name("LEG,LEG");
+  region->add_option("--wrench", a.wrench, "one wrench p,q [1, m] instead of the box W")->type_name("P,Q");
+  region->add_option("--window", a.window, "clip to this rectangle [m]")->type_name("XMIN,YMIN,XMAX,YMAX");
+  region->add_option("--svg", a.svg, "draw it; - for standard output")->type_name("FILE");
+  region->add_option("--json", a.json, "cells, areas and boundaries; - for standard output")->type_name("FILE");
+  region->footer(
+      "Exit status: 0 done, 2 bad input or usage.\n"
+      "Example: surefoot region maps/vee.yaml --svg region.svg");
+  return region;
+}
+
 /// What the parser says, with the option or command that may have been meant.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
   std::vector<std::string> commands, options{"--help", "--version"};
@@ -125,8 +142,9 @@ int run(int count, char** words) {
   const CLI::App* plan = add_plan(app, arguments.plan);
   const CLI::App* check = add_check(app, arguments);
   add_query(app, arguments);
+  const CLI::App* region = add_region(app, arguments.region);
   if (count <= 1) {
-    report_error("a command is missing: plan, check or query (surefoot --help tells more)");
+    report_error("a command is missing: plan, check, query or region (surefoot --help tells more)");
     return exit_bad_input;
   }
   try {
@@ -143,6 +161,7 @@ int run(int count, char** words) {
   }
   if (plan->parsed()) return run_plan(arguments.plan);
   if (check->parsed()) return run_check(arguments.check_scene, arguments.check_plan);
+  if (region->parsed()) return run_region(arguments.region);
   return run_query(arguments.query_file);
 }
 

@@ -328,6 +328,11 @@ Slab Sweep::make_slab(double a, double b, const SweepLine& at_a, const SweepLine
     slab.modes.push_back(present);
   }
   slab.integral.assign(slab.at_m.size(), 0);
+  for (const Crossing& crossing : at_m.at) {
+    double slope = 0;
+    polish(modes_, crossing.curve, at_m.s, crossing.t, at_m.hi - at_m.lo, &slope);
+    slab.slope.push_back(slope);
+  }
   return slab;
 }
 
@@ -343,8 +348,9 @@ bool Sweep::curve_points(const Slab& slab, double s, double u, std::vector<doubl
   t.back() = line.hi;
   for (std::size_t k = 1; k + 1 < t.size(); ++k) {
     const double guess = low * slab.at_a[k] + middle * slab.at_m[k] + high * slab.at_b[k];
-    t[k] = polish(modes_, slab.curves[k - 1].curve, s, guess, length);
-    if (!(t[k] >= t[k - 1] - close && t[k] <= line.hi + close)) return false;
+    double slope = 0;
+    t[k] = polish(modes_, slab.curves[k - 1].curve, s, guess, length, &slope);
+    if (!(t[k] >= t[k - 1] - close && t[k] <= line.hi + close) || slope * slab.slope[k - 1] < 0) return false;
   }
   return true;
 }

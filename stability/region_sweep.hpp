@@ -25,6 +25,7 @@ struct Slab {
   std::vector<std::uint32_t> modes;  ///< of each piece
   std::vector<double> integral;      ///< of t over [a, b], of every curve
   std::vector<double> at_a, at_m, at_b;  ///< t of every curve just inside a, in the middle, just inside b
+  std::vector<double> slope;  ///< of the crossings' curves along the middle line: only its sign tells branches apart
   int lo_edge = -1, hi_edge = -1;
   std::size_t pieces() const { return modes.size(); }
 };

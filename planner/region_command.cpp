@@ -1,0 +1,200 @@
+#include "planner/region_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "planner/commands.hpp"
+#include "planner/console.hpp"
+#include "planner/output_file.hpp"
+
+namespace surefoot::planner {
+namespace {
+
+using stability::Contact;
+using terrain::Document;
+using terrain::InputError;
+using terrain::Node;
+
+/// What the figure is about, with all that it refers to.
+struct Subject {
+  std::optional<gaits::Scene> scene;
+  gaits::RegionFigure figure;
+};
+
+/// "a,b,c": numbers between commas.
+std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count, const char* form) {
+  std::vector<double> values;
+  std::size_t begin = 0;
+  try {
+    for (;;) {
+      const std::size_t end = text.find(',', begin);
+      const std::string part = text.substr(begin, end == std::string::npos ? end : end - begin);
+      const Document parsed = Document::parse(part, option);  // numbers as in scenes, whatever the locale
+      values.push_back(parsed.root().number("number"));
+      if (end == std::string::npos) break;
+      begin = end + 1;
+    }
+  } catch (const InputError&) {
+    values.clear();
+  }
+  if (values.size() != count) throw InputError(fmt::format("{}: found {}, expected {}", option, one_line(text), form));
+  return values;
+}
+
+std::vector<int> legs_of(const std::string& text) {
+  const char* form = "two or three legs as 1,2 or 1,2,3";
+  const auto commas = static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
+  if (commas != 1 && commas != 2) throw InputError(fmt::format("--stance: found {}, expected {}", one_line(text), form));
+  std::vector<int> legs;
+  for (const double value : numbers("--stance", text, commas + 1, form)) {
+    const int leg = value == 1 ? 0 : value == 2 ? 1 : value == 3 ? 2 : -1;
+    if (leg < 0 || std::find(legs.begin(), legs.end(), leg) != legs.end())
+      throw InputError(fmt::format("--stance: found {}, expected {}", one_line(text), form));
+    legs.push_back(leg);
+  }
+  std::sort(legs.begin(), legs.end());
+  return legs;
+}
+
+/// The legs that carry the first stance, as far as the scene says.
+std::vector<int> first_legs(const gaits::Scene& scene) {
+  if (scene.start.support) return {scene.start.support->first, scene.start.support->second};
+  std::vector<int> planted;
+  for (int leg = 0; leg < gaits::leg_count; ++leg)
+    if (scene.start.feet[leg]) planted.push_back(leg);
+  return planted;
+}
+
+void read_scene(const RegionArguments& arguments, Subject& subject) {
+  subject.scene = open_scene(*arguments.scene);
+  const gaits::Scene& scene = *subject.scene;
+  const std::vector<int> legs = arguments.stance ? legs_of(*arguments.stance) : first_legs(scene);
+  std::string names;
+  for (const int leg : legs) {
+    const auto& foot = scene.start.feet[leg];
+    if (!foot) throw InputError(fmt::format("--stance: leg {} starts in the air ({})", leg + 1, scene.start.place));
+    subject.figure.contacts.push_back(gaits::contact_at(*foot));
+    subject.figure.contact_names.push_back(std::to_string(leg + 1));
+    names += (names.empty() ? "" : ", ") + std::to_string(leg + 1);
+  }
+  subject.figure.title = fmt::format("{}: start feet of legs {}", scene.name, names);
+  subject.figure.terrain = &scene.terrain;
+  subject.figure.radius_of_gyration = scene.robot.radius_of_gyration;
+  subject.figure.box = {{}, scene.disturbance.kappa, scene.disturbance.nu};
+}
+
+Eigen::Vector2d point(const Node& node, const char* what) {
+  const auto& items = node.items(what, 2);
+  return {items[0].number(what), items[1].number(what)};
+}
+
+/// A query line (formats.md) whose `com`, if it is there, is only marked.
+void read_posture(const RegionArguments& arguments, Subject& subject) {
+  const std::string& path = *arguments.posture;
+  const Document document = path == "-" ? Document::parse(read_stdin(), "<stdin>") : Document::read_file(path);
+  const Node& root = document.root();
+  root.allow_only({"contacts", "com", "rho", "kappa", "nu"}, "posture");
+  const Node& contacts = root.require("contacts", "posture");
+  const auto& list = contacts.items("contacts");
+  if (list.empty() || list.size() > 3) contacts.fail(fmt::format("contacts: found {}, expected 1 to 3", list.size()));
+  for (const Node& item : list) {
+    item.allow_only({"p", "n", "mu"}, "contact");
+    Contact contact;
+    contact.position = point(item.require("p", "contact"), "p");
+    contact.normal = point(item.require("n", "contact"), "n");
+    contact.friction = item.require("mu", "contact").not_negative("mu");
+    if (contact.normal.isZero(0)) item.require("n", "contact").fail("n: a normal may not be zero");
+    subject.figure.contacts.push_back(contact);
+    subject.figure.contact_names.push_back(std::to_string(subject.figure.contacts.size()));
+  }
+  subject.figure.radius_of_gyration = root.require("rho", "posture").positive("rho");
+  subject.figure.box.kappa = root.require("kappa", "posture").not_negative("kappa");
+  subject.figure.box.nu = root.require("nu", "posture").not_negative("nu");
+  if (const Node* com = root.find("com")) subject.figure.com = point(*com, "com");
+  subject.figure.title = path == "-" ? "posture" : path.substr(path.find_last_of('/') + 1);
+}
+
+Subject read_subject(const RegionArguments& arguments) {
+  if (arguments.scene.has_value() == arguments.posture.has_value())
+    throw InputError(arguments.scene ? "a scene and --posture are given; expected one of them"
+                                     : "nothing to draw: expected a scene file or --posture FILE");
+  if (arguments.posture && arguments.stance) throw InputError("--stance: only for a scene; a posture is one stance");
+  Subject subject;
+  if (arguments.scene)
+    read_scene(arguments, subject);
+  else
+    read_posture(arguments, subject);
+  if (arguments.wrench) {
+    const std::vector<double> wrench = numbers("--wrench", *arguments.wrench, 2, "p,q");
+    subject.figure.box = {{wrench[0], wrench[1]}, 0, 0};
+  }
+  return subject;
+}
+
+stability::RegionOptions options_of(const RegionArguments& arguments) {
+  stability::RegionOptions options;
+  if (!arguments.window) return options;
+  const char* form = "xmin,ymin,xmax,ymax with xmin < xmax and ymin < ymax";
+  const std::vector<double> w = numbers("--window", *arguments.window, 4, form);
+  if (!(w[0] < w[2] && w[1] < w[3]))
+    throw InputError(fmt::format("--window: found {}, expected {}", one_line(*arguments.window), form));
+  options.window = Eigen::AlignedBox2d(Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3]));
+  return options;
+}
+
+/// Files that must not be one another, nor what is read.
+struct Outputs {
+  std::unique_ptr<OutputFile> svg, json;
+  bool to_stdout = false;
+};
+
+Outputs open_outputs(const RegionArguments& arguments) {
+  Outputs outputs;
+  const std::string input = arguments.scene.value_or(arguments.posture.value_or("-"));
+  const auto open = [&](const std::optional<std::string>& path, std::unique_ptr<OutputFile>& file) {
+    if (!path) return;
+    if (*path == "-") {
+      if (outputs.to_stdout) throw InputError("--svg - and --json -: standard output can hold one of them");
+      outputs.to_stdout = true;
+      return;
+    }
+    file = std::make_unique<OutputFile>(*path);
+    if (input != "-" && file->same_as(input))
+      throw InputError(fmt::format("{}: is the input itself and would be overwritten", *path));
+  };
+  open(arguments.svg, outputs.svg);
+  open(arguments.json, outputs.json);
+  if (outputs.svg && outputs.json && outputs.svg->same_as(outputs.json->path()))
+    throw InputError(fmt::format("{}: both --svg and --json would write this file", outputs.json->path()));
+  return outputs;
+}
+
+}  // namespace
+
+int run_region(const RegionArguments& arguments) {
+  const stability::RegionOptions options = options_of(arguments);
+  const Subject subject = read_subject(arguments);
+  const Outputs outputs = open_outputs(arguments);
+  const gaits::RegionFigure& figure = subject.figure;
+  const stability::Region region =
+      stability::region(figure.contacts, figure.radius_of_gyration, figure.box, options);
+  const auto deliver = [](const std::optional<std::string>& path, OutputFile* file, const std::string& text) {
+    if (file != nullptr) file->stage(text);
+    if (path == "-") write_stdout(text);
+  };
+  if (arguments.svg) deliver(arguments.svg, outputs.svg.get(), gaits::to_svg(figure, region));
+  if (arguments.json) deliver(arguments.json, outputs.json.get(), region_to_json(figure, region));
+  if (!outputs.to_stdout) write_stdout(region_to_text(figure, region));
+  for (OutputFile* file : {outputs.svg.get(), outputs.json.get()})
+    if (file != nullptr) {
+      file->commit();
+      note("wrote " + file->path());
+    }
+  return exit_success;
+}
+
+}  // namespace surefoot::planner

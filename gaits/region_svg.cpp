@@ -22,7 +22,7 @@ constexpr std::string_view ink = "#222", faint = "#666", robust_fill = "#7fc8a9"
 // Light enough for black numbers, told apart by colour-blind eyes; used again from the start where cells are many.
 constexpr std::array<std::string_view, 10> shades{"#f6c98f", "#a9cdea", "#e8b4cf", "#f4ec9a", "#e9a58c",
                                                   "#c7c3e6", "#d2b48c", "#bfd9a0", "#f2d5d5", "#b9d5d8"};
-constexpr double left = 30, top = 92, gap = 26, key_width = 330;  // [px]
+constexpr double left = 30, top = 110, gap = 26, key_width = 372;  // [px]
 constexpr double widest = 680, tallest = 620, bottom_room = 78;   // [px]
 constexpr std::size_t most_in_key = 24;
 
@@ -65,11 +65,11 @@ class Picture {
     AlignedBox2d shown = feet;
     for (const Vector2d& corner : region_.equilibrium) shown.extend(corner);
     if (figure_.com) shown.extend(*figure_.com);
-    const Vector2d most = Vector2d::Constant(4 * unit);
+    const Vector2d most = Vector2d::Constant(3 * unit);
     AlignedBox2d near(feet.min() - most, feet.max() + most);
     if (!region_.equilibrium.empty() && !near.intersects(bounds_of(region_.equilibrium))) near = shown;
     shown = shown.intersection(near);
-    const Vector2d room = Vector2d::Constant(0.25 * unit);
+    const Vector2d room(0.6 * unit, 0.25 * unit);
     return {shown.min() - room, shown.max() + room};
   }
 
@@ -100,9 +100,13 @@ class Picture {
                                          : fmt::format("{}: {:.5g} m^2.  {}: {:.5g} m^2, {} of it.", equilibrium_name(box),
                                                        region_.equilibrium_area, robust_name(box), region_.robust_area,
                                                        share(region_.robust_area));
-    if (region_.window) result += "  Unbounded: clipped to the dashed window.";
-    if (!region_.empty() && !window_.contains(bounds_of(region_.equilibrium))) result += "  Goes on beyond the picture.";
     canvas_.text({left, 79}, result, {.size = 13});
+    std::string more;
+    if (region_.window)
+      more = fmt::format("Clipped to x {:.4g} .. {:.4g}, y {:.4g} .. {:.4g} m.  ", region_.window->min().x(),
+                         region_.window->max().x(), region_.window->min().y(), region_.window->max().y());
+    if (!region_.empty() && !window_.contains(bounds_of(region_.equilibrium))) more += "Goes on beyond the picture.";
+    canvas_.text({left, 98}, more, {.size = 12, .colour = faint});
   }
 
   void ground() {

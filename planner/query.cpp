@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "stability/region_tolerance.hpp"
 #include "stability/robust_oracle.hpp"
 #include "terrain/document.hpp"
 
@@ -141,6 +142,7 @@ struct Answer {
   stability::SafetyFactor factor;
   std::vector<std::string> modes;
   std::optional<double> lambda;
+  std::optional<double> com_tolerance;  // [m], of points
   bool uncertain = false;
 };
 
@@ -155,6 +157,7 @@ Answer ask_point(const RobustOracle& oracle, const Question& question) {
   answer.robust = oracle.robust(question.com);
   answer.factor = oracle.safety_factor(question.com);
   add_modes(answer.modes, oracle.feasible_modes(question.com));
+  answer.com_tolerance = stability::com_tolerance(question.contacts, question.rho, question.box, question.com);
   return answer;
 }
 
@@ -189,6 +192,8 @@ void write(std::string& out, const Answer& answer) {
     fmt::format_to(put, "{}\"{}\"", i == 0 ? "" : ", ", answer.modes[i]);
   out += ']';
   if (answer.lambda) fmt::format_to(put, R"(, "lambda": {})", *answer.lambda);
+  if (answer.com_tolerance && std::isfinite(*answer.com_tolerance))
+    fmt::format_to(put, R"(, "com_tolerance": {})", *answer.com_tolerance);
   if (answer.uncertain) out += R"(, "uncertain": true)";
   const auto& [p, q] = answer.factor.witness;
   const Eigen::Vector2d& gradient = answer.factor.gradient;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -115,7 +116,7 @@ void read_posture(const RegionArguments& arguments, Subject& subject) {
   subject.figure.box.kappa = root.require("kappa", "posture").not_negative("kappa");
   subject.figure.box.nu = root.require("nu", "posture").not_negative("nu");
   if (const Node* com = root.find("com")) subject.figure.com = point(*com, "com");
-  subject.figure.title = path == "-" ? "posture" : path.substr(path.find_last_of('/') + 1);
+  subject.figure.title = path == "-" ? "posture" : std::filesystem::path(path).stem().string();
 }
 
 Subject read_subject(const RegionArguments& arguments) {

@@ -73,6 +73,25 @@ double size_of(const Form<Poly2>& f) { return std::max({f.u.size(), f.one.size()
 
 bool nearly_equal(const Poly2& a, const Poly2& b) { return (a - b).size() <= equal_rows; }
 
+/// The covectors sigma T_i, N_l and N_i of a slide.
+void add_covectors(RegionMode& mode, const Frame<Poly2>& frame, const WrenchBox& box) {
+  const ModeSpec& spec = mode.spec;
+  const ContactTerms<Poly2>& at = frame.at[spec.i];
+  const int edge = loaded_edge(spec.sigma_i);
+  const auto add = [&](const ContactTerms<Poly2>& where, const Vec2<double>& a) {
+    const Poly2 moment = cross(where.r, a);
+    const double p = frame.rho2 * a.x, one = frame.rho2 * a.y;
+    mode.covector[mode.covectors++] = {
+        {Poly2(p * box.kappa), moment * box.centre.q + Poly2(one + p * box.centre.p), moment * box.nu},
+        moment * at.sz[edge] + Poly2(frame.rho2 * dot(a, at.edge[edge]))};
+  };
+  const double sigma = spec.sigma_i;
+  add(at, {sigma * at.n.y, -sigma * at.n.x});
+  for (int l = 0; l < frame.contacts; ++l)
+    if (l != spec.i && !spec.row_vanishes[l]) add(frame.at[l], frame.at[l].n);
+  add(at, at.n);
+}
+
 /// Rows scaled to size 1; those that vanish identically or repeat an earlier one are left out. Two rows that are opposite
 /// everywhere exclude the mode for every COM.
 void tidy(RegionMode& mode) {
@@ -256,6 +275,7 @@ void RegionModes::add(const Frame<Poly2>& frame, const ModeSpec& spec, int conta
   emit_rows(frame, spec, sink);
   name_rows(mode, contacts);
   tidy(mode);
+  if (spec.kind == ModeSpec::Kind::slide) add_covectors(mode, frame, box_);
 }
 
 Poly2 RegionModes::curve(const CurveId& id, double s, double t) const {
@@ -311,6 +331,57 @@ bool excluded_with_sign(const RegionMode& mode, double sign, double s0, double d
   return true;
 }
 
+/// A slide moves as xi = -M^-1 v + phi M^-1 s with phi > 0 and N . xi = 0, whatever the sign of D: it is excluded where some
+/// Z = A + z N has Z . M^-1 v > 0 on the box and Z . M^-1 s < 0. (Near D = 0 the rows, multiplied by D, nearly depend on each other.)
+bool excluded_by_covector(const SlideCovector& a, const SlideCovector& n, double s0, double ds, double t0, double dt) {
+  double low = -HUGE_VAL, high = HUGE_VAL;  // of z, in the middle
+  const auto require = [&](double constant, double slope) {  // constant + z slope > 0
+    if (slope > 0)
+      low = std::max(low, -constant / slope);
+    else if (slope < 0)
+      high = std::min(high, -constant / slope);
+    else if (constant <= 0)
+      low = HUGE_VAL;
+  };
+  const auto corner = [](const Form<Poly2>& f, double u, double w) { return f.one + f.u * u + f.w * w; };
+  for (const double u : {-1, 1})
+    for (const double w : {-1, 1}) require(corner(a.load, u, w).at(s0, t0), corner(n.load, u, w).at(s0, t0));
+  require(-a.push.at(s0, t0), -n.push.at(s0, t0));
+  if (!(low < high)) return false;
+  const double z = low == -HUGE_VAL ? (high == HUGE_VAL ? 0 : high - 1) : high == HUGE_VAL ? low + 1 : 0.5 * (low + high);
+  constexpr double rounding = 1e-13;
+  const auto negative = [&](const Poly2& f) {
+    const Poly2 here = f.about(s0, t0);
+    return bound(here, ds, dt) < -rounding * magnitude(here, ds, dt);
+  };
+  if (!negative(a.push + n.push * z)) return false;
+  for (const double u : {-1, 1})
+    for (const double w : {-1, 1})
+      if (!negative(-(corner(a.load, u, w) + corner(n.load, u, w) * z))) return false;
+  return true;
+}
+
+/// One covector, or two of which the force pushes one up and one down, mixed so that it barely pushes down.
+bool excluded_by_covectors(const RegionMode& mode, double s0, double ds, double t0, double dt) {
+  const int last = mode.covectors - 1;
+  const SlideCovector& n = mode.covector[std::max(last, 0)];
+  for (int k = 0; k < last; ++k)
+    if (excluded_by_covector(mode.covector[k], n, s0, ds, t0, dt)) return true;
+  for (int k = 0; k < last; ++k)
+    for (int l = 0; l < last; ++l) {
+      const SlideCovector &down = mode.covector[k], &up = mode.covector[l];
+      const double a = down.push.at(s0, t0), b = up.push.at(s0, t0);
+      if (!(a < 0 && b > 0)) continue;
+      for (const double part : {0.95, 0.6}) {  // of the most that leaves the sum below 0
+        const double y = part * -a / b;
+        const SlideCovector sum{{down.load.u + up.load.u * y, down.load.one + up.load.one * y, down.load.w + up.load.w * y},
+                                down.push + up.push * y};
+        if (excluded_by_covector(sum, n, s0, ds, t0, dt)) return true;
+      }
+    }
+  return false;
+}
+
 }  // namespace
 
 bool RegionModes::excluded(const RegionMode& mode, double s0, double ds, double t0, double dt, bool& feasible) const {
@@ -323,7 +394,7 @@ bool RegionModes::excluded(const RegionMode& mode, double s0, double ds, double 
   if (can_be_positive) all = excluded_with_sign(mode, 1, s0, ds, t0, dt, d.c > 0 ? feasible : ignored);
   if (can_be_negative && (all || d.c < 0))
     all = excluded_with_sign(mode, -1, s0, ds, t0, dt, d.c < 0 ? feasible : ignored) && all;
-  return all;
+  return all || (!feasible && excluded_by_covectors(mode, s0, ds, t0, dt));
 }
 
 // ---- words ------------------------------------------------------------------------------------------------------

@@ -23,6 +23,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,8 +65,16 @@ struct RegionRow {
   signed char contact = 0;
 };
 
+/// A covector A of a slide: A . M^-1 v over the box and A . M^-1 s, both times rho^2.
+struct SlideCovector {
+  Form<Poly2> load;
+  Poly2 push;
+};
+
 struct RegionMode {
   ModeSpec spec{};
+  int covectors = 0;                        ///< slides: those that must be positive on the twist, then N_i, which must be 0
+  std::array<SlideCovector, 4> covector;
   ContactMode mode;
   int count = 0;
   std::array<RegionRow, 6> row;

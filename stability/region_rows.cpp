@@ -384,7 +384,8 @@ bool excluded_by_covectors(const RegionMode& mode, double s0, double ds, double 
 
 }  // namespace
 
-bool RegionModes::excluded(const RegionMode& mode, double s0, double ds, double t0, double dt, bool& feasible) const {
+bool RegionModes::excluded(const RegionMode& mode, double s0, double ds, double t0, double dt, bool& feasible,
+                           bool closely) const {
   feasible = false;
   if (mode.impossible) return true;
   if (!mode.has_denominator) return excluded_with_sign(mode, 1, s0, ds, t0, dt, feasible);
@@ -394,7 +395,7 @@ bool RegionModes::excluded(const RegionMode& mode, double s0, double ds, double 
   if (can_be_positive) all = excluded_with_sign(mode, 1, s0, ds, t0, dt, d.c > 0 ? feasible : ignored);
   if (can_be_negative && (all || d.c < 0))
     all = excluded_with_sign(mode, -1, s0, ds, t0, dt, d.c < 0 ? feasible : ignored) && all;
-  return all || (!feasible && excluded_by_covectors(mode, s0, ds, t0, dt));
+  return all || (closely && !feasible && excluded_by_covectors(mode, s0, ds, t0, dt));
 }
 
 // ---- words ------------------------------------------------------------------------------------------------------

@@ -142,8 +142,9 @@ class RegionModes {
   const std::vector<Poly2>& edges() const { return edges_; }
 
   /// True if dual certificates exclude the mode in the whole rectangle |s - s0| <= ds, |t - t0| <= dt. `feasible` is set if the
-  /// mode is feasible in its middle.
-  bool excluded(const RegionMode& mode, double s0, double ds, double t0, double dt, bool& feasible) const;
+  /// mode is feasible in its middle. `closely`: more is tried for slides near D = 0, at about twice the cost.
+  bool excluded(const RegionMode& mode, double s0, double ds, double t0, double dt, bool& feasible,
+                bool closely = false) const;
 
  private:
   void add(const Frame<Poly2>& frame, const ModeSpec& spec, int contacts);

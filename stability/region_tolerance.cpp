@@ -20,7 +20,7 @@ struct Square {
 /// Least distance at which the mode cannot be excluded, at most `limit`. Nearest squares first: when one that is small enough comes up,
 /// all that is nearer has been excluded.
 double distance_to(const RegionModes& modes, const RegionMode& mode, double limit) {
-  constexpr int most_squares = 400;  // of one mode; typical: 1 to 200; beyond it the answer is safe but not sharp
+  constexpr int most_squares = 2000;  // of one mode; typical: 1 to 300; beyond it the answer is safe but not sharp
   std::priority_queue<Square> open;
   open.push({0, 0, limit});
   for (int count = 0; !open.empty(); ++count) {
@@ -30,7 +30,7 @@ double distance_to(const RegionModes& modes, const RegionMode& mode, double limi
     if (count == most_squares || square.half < 0.5 * disc_precision * distance) return distance;
     open.pop();
     bool feasible = false;
-    if (modes.excluded(mode, square.s, square.half, square.t, square.half, feasible)) continue;
+    if (modes.excluded(mode, square.s, square.half, square.t, square.half, feasible, true)) continue;
     if (feasible) limit = std::min(limit, std::hypot(square.s, square.t));
     if (square.half < 1e-300) return 0;
     const double half = 0.5 * square.half;

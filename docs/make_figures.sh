@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Draws every figure of docs/regions.md and writes the table of its numbers. Run from anywhere:
+#   docs/make_figures.sh [PROGRAM]        default: build/release/bin/surefoot, else ./surefoot
+set -euo pipefail
+
+root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+program=${1:-$root/build/release/bin/surefoot}
+[[ -x $program ]] || program=$root/surefoot
+figures=$root/docs/figures
+table=$figures/areas.md
+
+{
+  echo "| posture | R_SS(W) [m²] | R(W) [m²] | share | error [m²] | modes that occur |"
+  echo "|---|---|---|---|---|---|"
+} > "$table"
+
+# NAME, then the arguments of `surefoot region`.
+draw() {
+  local name=$1
+  shift
+  "$program" region "$@" --svg "$figures/$name.svg" --json - |
+    awk -v name="$name" '
+      function value(line) { sub(/^"[a-z_]*": /, "", line); sub(/,$/, "", line); return line }
+      /^"equilibrium_area"/ { a = value($0) }
+      /^"robust_area"/ { b = value($0) }
+      /^"area_error"/ { e = value($0) }
+      /"mode":/ { m = $0; sub(/.*"mode":"/, "", m); sub(/".*/, "", m); modes = modes (modes == "" ? "" : " ") m }
+      END { printf "| %s | %.7g | %.7g | %s | %.1g | %s |\n", name, a, b, (a > 0 ? sprintf("%.5f", b / a) : "-"), e, (modes == "" ? "none" : modes) }
+    ' >> "$table"
+}
+
+for posture in "$figures"/postures/*.json; do draw "$(basename "$posture" .json)" --posture "$posture"; done
+for scene in flat vee ridge; do draw "scene_$scene" "$root/maps/$scene.yaml"; done
+draw scene_stairs_up "$root/maps/stairs_up.yaml"
+cat "$table"

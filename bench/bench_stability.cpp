@@ -60,7 +60,7 @@ void fresh_contacts(benchmark::State& state) {
   const Work& given = work(static_cast<int>(state.range(0)));
   run(state, [&](std::size_t k) {
     const SamplePosture& p = given.postures[k];
-    return RobustOracle(p.contacts, p.rho, p.box).robust(p.com);
+    return surefoot::stability::robust(p.contacts, p.rho, p.box, p.com);
   });
 }
 

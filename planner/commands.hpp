@@ -29,8 +29,8 @@ struct PlanArguments {
 
 int run_plan(const PlanArguments& arguments);
 int run_check(const std::string& scene, const std::string& plan);
-/// Lines of `file`, "-" for stdin.
-int run_query(const std::string& file);
+/// Lines of `file`, "-" for stdin. With `stats`, stderr tells how the answers were decided.
+int run_query(const std::string& file, bool stats);
 
 /// Loads a scene, "-" from stdin. For a file that does not exist the error names what may have been meant.
 gaits::Scene open_scene(const std::string& path);

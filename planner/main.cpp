@@ -42,6 +42,7 @@ struct Arguments {
   PlanArguments plan;
   RegionArguments region;
   std::string check_scene, check_plan, query_file = "-";
+  bool query_stats = false;
 };
 
 CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
@@ -80,6 +81,7 @@ CLI::App* add_check(CLI::App& app, Arguments& a) {
 CLI::App* add_query(CLI::App& app, Arguments& a) {
   CLI::App* query = app.add_subcommand("query", "Answer questions about postures: JSON lines in, JSON lines out");
   query->add_option("FILE", a.query_file, "file of queries, - or nothing for standard input")->type_name("FILE");
+  query->add_flag("--stats", a.query_stats, "afterwards, on standard error: how many decisions each stage made");
   query->footer(
       "One answer per line, in order; a bad line (an empty one too) answers {\"error\": ..., \"line\": N}.\n"
       "Exit status: 0 all lines were read, 2 bad input or usage.\n"
@@ -162,7 +164,7 @@ int run(int count, char** words) {
   if (plan->parsed()) return run_plan(arguments.plan);
   if (check->parsed()) return run_check(arguments.check_scene, arguments.check_plan);
   if (region->parsed()) return run_region(arguments.region);
-  return run_query(arguments.query_file);
+  return run_query(arguments.query_file, arguments.query_stats);
 }
 
 }  // namespace

@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <string_view>
 
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/query.hpp"
+#include "stability/decisions.hpp"
 
 namespace surefoot::planner {
 
@@ -79,16 +83,46 @@ class QuerySession {
 
 }  // namespace
 
-int run_query(const std::string& file) {
+namespace {
+
+void print_stats() {
+  const stability::Decisions& d = stability::decisions;
+  std::string text;
+  const auto row = [&](std::string_view what, std::uint64_t count, std::uint64_t exactly) {
+    const double share = count == 0 ? 0 : static_cast<double>(exactly) / static_cast<double>(count);
+    fmt::format_to(std::back_inserter(text), "{:<44} {:>14} {:>12} {:>10.2e}\n", what, count, exactly, share);
+  };
+  const auto stage = [&](std::string_view what, std::uint64_t count) {
+    fmt::format_to(std::back_inserter(text), "  {:<42} {:>14}\n", what, count);
+  };
+  fmt::format_to(std::back_inserter(text), "{:<44} {:>14} {:>12} {:>10}\n", "decisions", "all", "exactly", "share");
+  row("signs of a set of contacts", d.signs, d.signs_exactly);
+  row("facets of the equilibrium cone", d.facets, d.facets_exactly);
+  row("modes at a COM", d.modes_by_screen + d.modes_by_rows + d.modes_exactly, d.modes_exactly);
+  stage("by a certificate shared by several modes", d.modes_by_screen);
+  stage("by their rows in doubles", d.modes_by_rows);
+  const std::uint64_t intervals = d.intervals_by_rows + d.intervals_by_covectors + d.witnesses + d.modes_marched;
+  row("modes on an interval of a line", intervals + d.lines_exactly, d.lines_exactly);
+  stage("by their rows", d.intervals_by_rows);
+  stage("by covectors", d.intervals_by_covectors);
+  stage("feasible at a point met on the way", d.witnesses);
+  stage("left to marching", d.modes_marched);
+  std::fputs(text.c_str(), stderr);
+}
+
+}  // namespace
+
+int run_query(const std::string& file, bool stats) {
   if (file == "-") {
     if (::isatty(STDIN_FILENO)) note("reading query lines from the terminal; end with Ctrl-D");
     QuerySession(STDIN_FILENO, "standard input").run();
-    return exit_success;
+  } else {
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) throw terrain::InputError(fmt::format("{}: cannot read: {}", file, std::strerror(errno)));
+    QuerySession(descriptor, file).run();
+    ::close(descriptor);
   }
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw terrain::InputError(fmt::format("{}: cannot read: {}", file, std::strerror(errno)));
-  QuerySession(descriptor, file).run();
-  ::close(descriptor);
+  if (stats) print_stats();
   return exit_success;
 }
 

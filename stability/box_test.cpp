@@ -134,13 +134,17 @@ Meeting meets_box(const RowList<double>& rows, const DisturbanceBox& box) {
   return middle_is_witness(rows, box) ? Meeting::yes : Meeting::uncertain;
 }
 
-bool two_rows_miss_box(const std::array<RowList<double>, 3>& coefficients, const DisturbanceBox& box, double error_factor) {
-  const RowList<double>& first = coefficients[0];
+bool two_rows_miss_box(const std::array<const RowList<double>*, 3>& coefficients, double sign, const DisturbanceBox& box,
+                       double error_factor) {
+  const RowList<double>& first = *coefficients[0];
   AllCorners<12> at;
   std::array<double, max_rows> errors;
   for (int k = 0; k < first.count; ++k) {
     errors[k] = error_factor * first.error[k];
-    for (int c = 0; c < 3; ++c) set_corner_values(coefficients[c].row[k], box, at[k].data() + 4 * c);
+    for (int c = 0; c < 3; ++c) {
+      const Row<double>& row = coefficients[c]->row[k];
+      set_corner_values({sign * row.p, sign * row.one, sign * row.q}, box, at[k].data() + 4 * c);
+    }
   }
   return pair_misses<12>(first.count, at, errors);
 }

@@ -95,8 +95,10 @@ bool has_plain_witness(const RowList<double>& rows, const DisturbanceBox& box);
 /// Whether some point of the box satisfies all rows, with a witness or a certificate beyond the rows' error bounds.
 Meeting meets_box(const RowList<double>& rows, const DisturbanceBox& box);
 
-/// Whether a positive combination of two rows is negative on the box for all three row lists, the Bernstein coefficients of rows on an
-/// interval (the errors are those of the first list, times the factor): no point of the box then satisfies all rows anywhere on it.
-bool two_rows_miss_box(const std::array<RowList<double>, 3>& coefficients, const DisturbanceBox& box, double error_factor);
+/// Whether a positive combination of two rows, times `sign`, is negative on the box for all three row lists, the Bernstein coefficients of
+/// rows on an interval (the errors are those of the first list, times the factor): no point of the box then satisfies all rows, times
+/// `sign`, anywhere on it.
+bool two_rows_miss_box(const std::array<const RowList<double>*, 3>& coefficients, double sign, const DisturbanceBox& box,
+                       double error_factor);
 
 }  // namespace surefoot::stability

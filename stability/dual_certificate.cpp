@@ -58,6 +58,8 @@ TwistCone<K> twist_cone(const Posture& posture, const ModeSpec& spec) {
   return cone;
 }
 
+constexpr Covector nothing{{0, 0, 0}, false};
+
 /// The covectors (x, 1, m), m their moment about the COM, that are left by half-planes: a convex polygon.
 class Slice {
  public:
@@ -130,12 +132,12 @@ DualCertificate::DualCertificate(const LineFrame& line, const ModeSpec& spec)
 Covector DualCertificate::propose(const Frame<double>& frame) const {
   if (spec_.kind == Kind::all_break) return propose_breaks(frame);
   if (cone_.free_rotation) return propose_force(frame);
-  if (cone_.count == 0) return {};
+  if (cone_.count == 0) return nothing;
   if (line_.box.kappa > 0 && line_.box.nu > 0) return propose_widened(frame, 0);
   // Where W has no extent along an axis, the slice is not bounded; a proposal may ask for too much.
   for (const double widening : {1e-3, 1e-6, 1e-9})
     if (const Covector covector = propose_widened(frame, widening); covector.found) return covector;
-  return {};
+  return nothing;
 }
 
 Covector DualCertificate::propose_widened(const Frame<double>& frame, double widening) const {
@@ -143,11 +145,11 @@ Covector DualCertificate::propose_widened(const Frame<double>& frame, double wid
   const Vec2<double>& r = frame.at[spec_.i].r;
   Slice slice(frame.rho2, std::max(line_.box.kappa, widening), std::max(line_.box.nu, widening * rho));
   for (int k = 0; k < cone_.count; ++k)
-    if (!slice.clip(about_com(cone_.extreme[k], r))) return {};
+    if (!slice.clip(about_com(cone_.extreme[k], r))) return nothing;
   for (int k = 0; k < edges_.count; ++k) {
     const ContactTerms<double>& t = frame.at[edges_.at[k].contact];
     const int edge = edges_.at[k].edge;
-    if (!slice.clip({-frame.rho2 * t.edge[edge].x, -frame.rho2 * t.edge[edge].y, -t.sz[edge]})) return {};
+    if (!slice.clip({-frame.rho2 * t.edge[edge].x, -frame.rho2 * t.edge[edge].y, -t.sz[edge]})) return nothing;
   }
   const Vec2<double> centre = slice.centre(1 / rho);
   const Row<double> z{centre.x, 1, centre.y - (r.x - r.y * centre.x)};  // about x_i: less r x Z
@@ -174,7 +176,7 @@ Covector DualCertificate::propose_force(const Frame<double>& frame) const {
     const int edge = edges_.at[k].edge;
     clip({-rho2 * t.edge[edge].x, -rho2 * t.edge[edge].y, -t.sz[edge]});
   }
-  if (!(low < high)) return {};
+  if (!(low < high)) return nothing;
   const double bound = 2 + 2 * std::min(std::abs(low), std::abs(high));  // stands for an end at infinity
   const Row<double> z{0.5 * (std::max(low, -bound) + std::min(high, bound)), 1, 0};
   return {z, surely_in_cone(z)};
@@ -184,7 +186,7 @@ Covector DualCertificate::propose_force(const Frame<double>& frame) const {
 Covector DualCertificate::propose_breaks(const Frame<double>& frame) const {
   const int n = frame.contacts;
   double most = 0;
-  Covector best;
+  Covector best = nothing;
   const auto consider = [&](double y0, double y1, double y2) {
     const std::array<double, 3> y{y0, y1, y2};
     Vec2<double> d{0, 0};

@@ -22,8 +22,8 @@ namespace surefoot::stability {
 /// A proof at one COM. For all_break: multipliers of N_1, N_2, N_3. Otherwise Z about the position of contact spec.i, so that
 /// Z . (velocity of that point, alpha) = p v_x + one v_y + q alpha.
 struct Covector {
-  Row<double> z{0, 0, 0};
-  bool found = false;
+  Row<double> z;
+  bool found;
 };
 
 /// Extreme twists of K about contact spec.i, as (velocity of that point, alpha).

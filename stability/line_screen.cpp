@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "stability/decisions.hpp"
+
 namespace surefoot::stability {
 namespace {
 
@@ -118,29 +120,36 @@ bool LineInterval::excludes_by_one_row(const StationRows& a, const StationRows& 
 }
 
 bool LineInterval::excludes_by_rows(int k) {
-  const StationRows &a = a_.rows(line_, k), &b = b_.rows(line_, k);
-  const double sign = a.denominator < 0 ? -1 : 1;
-  if (!denominator_keeps_sign(a, b, k, sign)) return false;
-  if (excludes_by_one_row(a, b, k, sign)) return true;
+  bool excluded = excludes_by_direction(line_.posture.modes()[k]);
+  if (!excluded) {
+    const StationRows &a = a_.rows(line_, k), &b = b_.rows(line_, k);
+    const auto excluded_for = [&](double sign) { return excludes_by_one_row(a, b, k, sign) || excludes_by_two_rows(a, b, k, sign); };
+    const double sign = a.denominator < 0 ? -1 : 1;
+    excluded = excluded_for(sign) && (denominator_keeps_sign(a, b, k, sign) || excluded_for(-sign));
+  }
+  decisions.intervals_by_rows += excluded;
+  return excluded;
+}
+
+bool LineInterval::excludes_by_two_rows(const StationRows& a, const StationRows& b, int k, double sign) {
   const StationRows& m = middle_.rows(line_, k);
-  std::array<RowList<double>, 3> coefficients;
-  for (RowList<double>& list : coefficients) list.count = a.list.count;
+  RowList<double> between;
+  between.count = a.list.count;
   for (int r = 0; r < a.list.count; ++r) {
     const Row<double>&ra = a.list.row[r], &rm = m.list.row[r], &rb = b.list.row[r];
-    coefficients[0].error[r] = a.list.error[r];
-    coefficients[0].row[r] = {sign * ra.p, sign * ra.one, sign * ra.q};
-    coefficients[1].row[r] = {sign * middle_coefficient(ra.p, rm.p, rb.p), sign * middle_coefficient(ra.one, rm.one, rb.one),
-                              sign * middle_coefficient(ra.q, rm.q, rb.q)};
-    coefficients[2].row[r] = {sign * rb.p, sign * rb.one, sign * rb.q};
+    between.row[r] = {middle_coefficient(ra.p, rm.p, rb.p), middle_coefficient(ra.one, rm.one, rb.one),
+                      middle_coefficient(ra.q, rm.q, rb.q)};
   }
-  return two_rows_miss_box(coefficients, line_.box, middle_error_factor);
+  return two_rows_miss_box({&a.list, &between, &b.list}, sign, line_.box, middle_error_factor);
 }
 
 bool LineInterval::excludes_by_covectors(int k) {
   const Covector& za = a_.covector(certificates_, k);
   if (!za.found) return false;
   const Covector& zb = b_.covector(certificates_, k);
-  return zb.found && certificates_.of_mode(k).proves(za, a_.frame(), zb, b_.frame());
+  const bool excluded = zb.found && certificates_.of_mode(k).proves(za, a_.frame(), zb, b_.frame());
+  decisions.intervals_by_covectors += excluded;
+  return excluded;
 }
 
 }  // namespace surefoot::stability

@@ -1,6 +1,6 @@
 // Fast proofs that modes are infeasible for every wrench of W on an interval of a straight line of COMs:
 //   1. one or two of the mode's rows with fixed multipliers are negative on all of W along the interval, by the Bernstein coefficients of
-//      the rows, which are quadratic in lambda; the denominator keeps its sign;
+//      the rows, which are quadratic in lambda; for both signs of the denominator, if it does not keep its sign;
 //      Along the one twist that a roll or two slides leave, the direction is such a row that is cheap to have;
 //   2. a covector interpolated between the ends (dual_certificate.hpp), also where the denominator vanishes.
 // Rows and covectors are found once per station and serve all intervals it belongs to.
@@ -58,16 +58,14 @@ class LineInterval {
   LineInterval(LineCertificates& certificates, Station& a, Station& middle, Station& b)
       : certificates_(certificates), line_(certificates.line()), a_(a), middle_(middle), b_(b) {}
   /// Whether mode k is shown to be infeasible for every wrench of W at every COM of the interval.
-  bool excludes(int k) {
-    return excludes_by_direction(line_.posture.modes()[k]) || excludes_by_rows(k) || excludes_by_covectors(k);
-  }
+  bool excludes_by_rows(int k);
+  bool excludes_by_covectors(int k);
 
  private:
   bool excludes_by_direction(const ModeSpec& spec) const;
-  bool excludes_by_rows(int k);
   bool excludes_by_one_row(const StationRows& a, const StationRows& b, int k, double sign);
+  bool excludes_by_two_rows(const StationRows& a, const StationRows& b, int k, double sign);
   bool denominator_keeps_sign(const StationRows& a, const StationRows& b, int k, double sign);
-  bool excludes_by_covectors(int k);
 
   LineCertificates& certificates_;
   const LineFrame& line_;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "stability/point_test.hpp"
+#include "stability/decisions.hpp"
 #include "stability/line_screen.hpp"
 
 namespace surefoot::stability {
@@ -86,27 +87,34 @@ class Scanner {
 
   Station station(double lambda) const { return {lambda, line_.posture.frame(from_, to_, lambda)}; }
 
+  /// The modes among those wanted that are proved on the whole interval.
   std::uint32_t excluded_between(Station& a, Station& b, std::uint32_t wanted, int halvings) {
     Station middle = station(0.5 * (a.lambda() + b.lambda()));
     LineInterval interval(certificates_, a, middle, b);
-    std::uint32_t whole = 0;
-    for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
-      const int k = std::countr_zero(rest);
-      if (interval.excludes(k)) whole |= 1u << k;
-    }
-    const std::uint32_t left = wanted & ~whole;
+    std::uint32_t left = remaining(wanted, [&](int k) { return interval.excludes_by_rows(k); });
+    const bool ends = halvings == 0;
+    if (seeks_feasible_ && ends && (meets_witness(a, left) || meets_witness(b, left))) return wanted & ~left;
+    left = remaining(left, [&](int k) { return interval.excludes_by_covectors(k); });
+    const std::uint32_t whole = wanted & ~left;
     if (left == 0) return whole;
     if (halvings == most_halvings) {
       for (std::uint32_t rest = left; rest != 0; rest &= rest - 1) result_.reached[std::countr_zero(rest)] = a.lambda();
       return whole;
     }
-    if (seeks_feasible_) {
-      if (halvings == 0 && (meets_witness(a, left) || meets_witness(b, left))) return whole;
-      if (meets_witness(middle, left)) return whole;
-    }
+    if (seeks_feasible_ && meets_witness(middle, left)) return whole;
     const std::uint32_t first = excluded_between(a, middle, left, halvings + 1);
     if (first == 0 || result_.feasible_mode >= 0) return whole;
     return whole | excluded_between(middle, b, first, halvings + 1);
+  }
+
+  template <class Excludes>
+  static std::uint32_t remaining(std::uint32_t modes, Excludes&& excludes) {
+    std::uint32_t left = modes;
+    for (std::uint32_t rest = modes; rest != 0; rest &= rest - 1) {
+      const int k = std::countr_zero(rest);
+      if (excludes(k)) left &= ~(1u << k);
+    }
+    return left;
   }
 
   void exclude_along_axis(std::uint32_t modes) {
@@ -122,6 +130,7 @@ class Scanner {
     for (std::uint32_t rest = modes; rest != 0; rest &= rest - 1) {
       const int k = std::countr_zero(rest);
       if (!at.has_witness(line_, k)) continue;
+      ++decisions.witnesses;
       result_.feasible_mode = k;
       result_.feasible_at = at.lambda();
       return true;
@@ -159,6 +168,7 @@ double LineQuery::excluded_up_to(const ModeSpec& spec, double s, double lambda) 
 }
 
 LineMode LineQuery::feasible(const ModeSpec& spec, double from) const {
+  ++decisions.modes_marched;
   const double lambda = excluded_up_to(spec, 1, from);
   if (lambda >= 1) return {LineOutcome::excluded, 0};
   if (const auto found = probe_beyond(lambda, [&](double at) { return has_witness(spec, at); }))
@@ -180,6 +190,8 @@ bool LineQuery::has_witness_exactly(const ModeSpec& spec, double lambda) const {
 }
 
 LineMode LineQuery::feasible_exactly(const ModeSpec& spec) const {
+  --decisions.modes_marched;
+  ++decisions.lines_exactly;
   const auto feasible_here = [&](double at) { return has_witness_exactly(spec, at); };
   for (const double end : {0.0, 1.0})
     if (feasible_here(end)) return {LineOutcome::feasible, end};

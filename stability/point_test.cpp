@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "stability/decisions.hpp"
 #include "stability/screen.hpp"
 
 namespace surefoot::stability {
@@ -15,7 +16,8 @@ double greatest_offset(const Frame<double>& frame) {
 }
 
 /// The polygon of {rows >= 0} in the box has a point where every row is positive iff each row is positive at one of its vertices.
-bool meets_with_sign(const RowList<Dyadic>& rows, bool negative, const DisturbanceBox& box) {
+bool meets_with_sign(const RowSink<Dyadic>& sink, bool negative, const DisturbanceBox& box) {
+  const RowList<Dyadic>& rows = sink.rows;
   RowList<Dyadic> signed_rows = rows;
   if (negative)
     for (int k = 0; k < rows.count; ++k) signed_rows.row[k] = -rows.row[k];
@@ -23,7 +25,9 @@ bool meets_with_sign(const RowList<Dyadic>& rows, bool negative, const Disturban
   if (polygon.count == 0) return false;
   for (int k = 0; k < rows.count; ++k) {
     const Row<Dyadic>& row = signed_rows.row[k];
-    if (row.p.is_zero() && row.one.is_zero() && row.q.is_zero()) continue;  // theory section 4: drop it
+    // Theory section 4 drops rows that vanish for every COM: the direction of two slides does, where z = s_i x s_j = 0. The other rows
+    // that do are not emitted (ModeSpec::row_vanishes); one that vanishes at this COM only is not positive.
+    if (k == sink.direction && row.p.is_zero() && row.one.is_zero() && row.q.is_zero()) continue;
     bool positive = false;
     for (int v = 0; v < polygon.count && !positive; ++v) positive = weighted_value(row, polygon.at[v]) > 0;
     if (!positive) return false;
@@ -35,7 +39,7 @@ bool meets_with_sign(const RowList<Dyadic>& rows, bool negative, const Disturban
 
 bool meets_box_exactly(const RowSink<Dyadic>& sink, const DisturbanceBox& box) {
   const int sign = sink.d ? sink.d->sign() : 1;
-  return (sign >= 0 && meets_with_sign(sink.rows, false, box)) || (sign <= 0 && meets_with_sign(sink.rows, true, box));
+  return (sign >= 0 && meets_with_sign(sink, false, box)) || (sign <= 0 && meets_with_sign(sink, true, box));
 }
 
 void PointQuery::make_frame() {
@@ -49,7 +53,10 @@ const ModeSpec* PointQuery::any_feasible() {
   make_frame();
   Screen<true> screen(frame_, frame_, box_, guard_);
   for (const ModeSpec& spec : posture_.modes())
-    if (!screen.excludes(spec) && feasible(spec)) return &spec;
+    if (screen.excludes(spec))
+      ++decisions.modes_by_screen;
+    else if (feasible(spec))
+      return &spec;
   return nullptr;
 }
 
@@ -68,6 +75,7 @@ bool PointQuery::equilibrium() const {
   for (const Facet& facet : posture_.facets()) {
     const Row<double>& z = facet.z;
     const double least = z.one + z.q * x - box_.kappa * std::abs(z.p - z.q * y) - box_.nu * std::abs(z.q);
+    ++decisions.facets;
     if (least > error) continue;
     if (least < -error || !inside_exactly(facet)) return false;
   }
@@ -75,6 +83,7 @@ bool PointQuery::equilibrium() const {
 }
 
 bool PointQuery::inside_exactly(const Facet& facet) const {
+  ++decisions.facets_exactly;
   const Row<Dyadic> z = posture_.exact_facet(facet);
   const Eigen::Vector2d& origin = posture_.position(0);
   const Dyadic x = Dyadic(com_.x()) - Dyadic(origin.x()), y = Dyadic(com_.y()) - Dyadic(origin.y());
@@ -87,12 +96,15 @@ bool PointQuery::feasible(const ModeSpec& spec) {
   make_frame();
   PointSink sink(guard_, box_);
   emit_rows(frame_, spec, sink);
+  ++decisions.modes_by_rows;
   if (sink.excluded()) return false;
   const Meeting meeting = sink.sign_certain() ? meets_box(sink.rows, box_) : Meeting::uncertain;
   return meeting == Meeting::uncertain ? feasible_exactly(spec) : meeting == Meeting::yes;
 }
 
 bool PointQuery::feasible_exactly(const ModeSpec& spec) {
+  --decisions.modes_by_rows;
+  ++decisions.modes_exactly;
   RowSink<Dyadic> sink;
   emit_rows(exact_frame(), spec, sink);
   return meets_box_exactly(sink, box_);

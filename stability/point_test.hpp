@@ -73,12 +73,16 @@ template <class V>
 struct RowSink {
   RowList<V> rows;
   std::optional<V> d;
+  int direction = -1;  // the row that is the direction of the twist left, if there is one
   void denominator(const V& value) { d = value; }
   bool add(const Row<V>& row) {
     rows.row[rows.count++] = row;
     return false;
   }
-  bool add_length(const Row<V>& row) { return add(row); }
+  bool add_length(const Row<V>& row) {
+    direction = rows.count;
+    return add(row);
+  }
 };
 
 /// The rows of a mode in exact arithmetic meet the box: with the sign of D, both signs where D = 0.

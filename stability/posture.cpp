@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "stability/decisions.hpp"
 #include "stability/guard.hpp"
 
 namespace surefoot::stability {
@@ -18,6 +19,7 @@ int certain_sign(double value, double bound, Exact&& exact) {
   if (value > bound) return 1;
   if (value < -bound) return -1;
   if (bound == 0 && value == 0) return 0;
+  ++decisions.signs_exactly;
   return sign_of(exact());
 }
 
@@ -73,7 +75,7 @@ K opening_of_slide(const Vec2<K>& dj, const Vec2<K>& dl, const Vec2<K>& ni, cons
 
 }  // namespace
 
-Posture::Posture(std::span<const Contact> contacts, double radius_of_gyration)
+Posture::Posture(std::span<const Contact> contacts, double radius_of_gyration, Modes modes)
     : count_(static_cast<int>(contacts.size())), rho_(radius_of_gyration), rho2_(rho_ * rho_) {
   assert(count_ >= 1 && count_ <= 3 && "1 to 3 contacts");
   assert(std::isfinite(rho_) && rho_ > 0 && "radius of gyration must be positive");
@@ -92,7 +94,9 @@ Posture::Posture(std::span<const Contact> contacts, double radius_of_gyration)
   facet_error_ = 32 * unit_roundoff * edge_bound_ * edge_bound_;
   if (count_ == 2) find_facets<4>();
   if (count_ == 3) find_facets<6>();  // one contact: a plane cone, without facets
-  list_modes();
+  constexpr std::array<std::uint64_t, 3> sides_of_rays{0, 4, 20};
+  decisions.signs += sides_of_rays[count_ - 1];
+  if (modes == Modes::listed) list_modes();
 }
 
 // ---- frames -----------------------------------------------------------------------------------------------------
@@ -196,6 +200,7 @@ int Posture::exact_side(int a, int b, int c) const {
   if (frictionless_pair(a, b) || frictionless_pair(a, c) || frictionless_pair(b, c)) return 0;
   // Parallel forces span a plane whatever their lines of action: flat ground, parallel treads.
   if (same_direction(a, b) && same_direction(b, c)) return 0;
+  ++decisions.signs_exactly;
   const Row<Dyadic> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
   const int i = c / 2;
   return dot(exact, ray_about<Dyadic>(offset<Dyadic>(0, i), normal<Dyadic>(i), Dyadic(friction_[i]), c % 2)).sign();
@@ -207,6 +212,7 @@ bool Posture::parallel(int a, int b) const {
   if (std::abs(z.q) > facet_error_ || std::abs(z.p) > facet_error_ * spread_ + underflow_slack ||
       std::abs(z.one) > facet_error_ * spread_ + underflow_slack)
     return false;
+  ++decisions.signs_exactly;
   const Row<Dyadic> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
   return exact.p.is_zero() && exact.one.is_zero() && exact.q.is_zero();
 }
@@ -295,6 +301,8 @@ ModeSpec& Posture::add_mode(ModeSpec::Kind kind) {
 }
 
 void Posture::list_modes() {
+  constexpr std::array<std::uint64_t, 3> turns_and_triple_product{0, 2, 6 + 1};
+  decisions.signs += turns_and_triple_product[count_ - 1];
   for (int i = 0; i < count_; ++i)
     for (int l = 0; l < count_; ++l)
       if (l != i)
@@ -390,6 +398,7 @@ void Posture::list_two_slides(int i, int j) {
   const int third = count_ == 3 ? opening_of_third(i, j, 3 - i - j) : 0;
   for (int sigma_i : {1, -1})
     for (int sigma_j : {1, -1}) {
+      if (slide_i * slide_j * sigma_i * sigma_j < 0) continue;  // the twist slides them the other way round
       const int needs[3] = {sigma_i * slide_i, sigma_j * slide_j, third};
       int sense = 0;
       bool possible = true;

@@ -22,7 +22,10 @@ class Posture {
  public:
   static constexpr int most_modes = 22;  // of three contacts: all break, 3 rolls, 6 slides, 12 pairs of slides
   /// Asserts on non-finite numbers, a count outside 1..3, negative friction, zero normals, rho <= 0.
-  Posture(std::span<const Contact> contacts, double radius_of_gyration);
+  enum class Modes { listed, deferred };
+  explicit Posture(std::span<const Contact> contacts, double radius_of_gyration, Modes modes = Modes::listed);
+  /// To be called once before modes() and turn_sign() if the modes were deferred.
+  void list_modes();
 
   int contacts() const { return count_; }
   /// True if the cone has no interior (all rays in one plane or on one line): nothing robust, never an equilibrium.
@@ -60,7 +63,6 @@ class Posture {
   int exact_side(int a, int b, int c) const;
   bool parallel(int a, int b) const;
   bool is_new_plane(int a, int b, unsigned coplanar) const;
-  void list_modes();
   void find_triple_sign();
   void list_slides(int i);
   int opening_of_third(int i, int j, int l) const;

@@ -24,6 +24,14 @@ RobustOracle::RobustOracle(std::span<const Contact> contacts, double radius_of_g
   assert(std::isfinite(box.kappa) && box.kappa >= 0 && std::isfinite(box.nu) && box.nu >= 0);
 }
 
+bool robust(std::span<const Contact> contacts, double radius_of_gyration, const DisturbanceBox& box, const Vector2d& com) {
+  Posture posture(contacts, radius_of_gyration, Posture::Modes::deferred);
+  PointQuery query(posture, com, box);
+  if (!query.equilibrium()) return false;
+  posture.list_modes();
+  return !query.any_feasible();
+}
+
 bool RobustOracle::equilibrium(const Vector2d& com) const { return PointQuery(posture_, com, box_).equilibrium(); }
 
 bool RobustOracle::robust(const Vector2d& com) const {

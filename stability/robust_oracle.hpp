@@ -63,6 +63,11 @@ struct HalfPlane {
   double offset = 0;
 };
 
+/// RobustOracle(contacts, radius_of_gyration, box).robust(com) for contacts that are asked about once: without the work that this COM
+/// does not need.
+bool robust(std::span<const Contact> contacts, double radius_of_gyration, const DisturbanceBox& box,
+            const Eigen::Vector2d& com);
+
 /// All questions about one set of 1 to 3 contacts. Construction does the work that does not depend on the COM;
 /// member functions are const, cheap (rationals, where they are needed, are not), and may be called
 /// from several threads.

@@ -177,13 +177,35 @@ class Picture {
     }
   }
 
+  /// A point of the cell that the picture shows: its own, else the middle of what is shown, if that lies in the cell.
+  std::optional<Vector2d> shown_point(const RegionCell& cell) const {
+    const AlignedBox2d frame(window_.min() + 0.03 * window_.sizes(), window_.max() - 0.03 * window_.sizes());
+    if (frame.contains(cell.inside) || cell.rings.empty()) return cell.inside;
+    Polyline part = clip(cell.rings.front(), Vector2d::UnitX(), -frame.min().x());
+    part = clip(part, -Vector2d::UnitX(), frame.max().x());
+    part = clip(part, Vector2d::UnitY(), -frame.min().y());
+    part = clip(part, -Vector2d::UnitY(), frame.max().y());
+    if (part.size() < 3) return std::nullopt;
+    Vector2d middle = Vector2d::Zero();
+    double twice = 0;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      const Vector2d p = part[k] - part[0], q = part[(k + 1) % part.size()] - part[0];
+      const double cross = p.x() * q.y() - p.y() * q.x();
+      twice += cross;
+      middle += cross * (p + q) / 3;
+    }
+    if (!(std::abs(twice) > 0)) return std::nullopt;
+    return part[0] + middle / twice;
+  }
+
   /// Inside the cell where there is room, else beside it on a leader.
   void numbers() {
     std::vector<Vector2d> taken;
     for (std::size_t k = 0; k < std::min(region_.cells.size(), most_in_key); ++k) {
       const RegionCell& cell = region_.cells[k];
-      const Vector2d at = view_(cell.inside);
-      if (!window_.contains(cell.inside)) continue;
+      const std::optional<Vector2d> shown = shown_point(cell);
+      if (!shown) continue;
+      const Vector2d at = view_(*shown);
       const double room = cell.area * view_.scale * view_.scale;
       Vector2d place = at;
       constexpr double least_room = 500;  // [px^2]

@@ -112,9 +112,8 @@ TEST_CASE("R_SS(W) of a level stance is the rhombus of the tipping lines", "[reg
   CHECK_FALSE(r.window);
 }
 
-TEST_CASE("A level stance may lift off where the disturbance throws the COM: the boundary of FF is in closed form", "[region]") {
-  // Both feet lift for q < 0 (torque to the right) where rho^2 < nu (x_i - x) for both i, likewise mirrored: |x - x_i| > rho^2 / nu on one side.
-  // With rho^2 / nu = 0.02 <= nu the strips cover R_SS(W) only beyond a foot: none within.
+TEST_CASE("A level stance cannot lift both feet within R_SS(W), however small rho", "[region]") {
+  // N_i . xi > 0 is -(rho^2 + (x_i - x) q) > 0: for both feet x > 1 + rho^2 / nu or x < -rho^2 / nu, beyond a foot.
   const Region r = region(level(), 0.05, {{}, 0.1, 0.125});
   for (const ModeShare& share : r.modes) CHECK(share.mode.name() != "FF");
 }

@@ -1,6 +1,8 @@
-// Area of R(W): error against time for three methods (grid of oracle calls, certified quadtree, sweep), as CSV on stdout.
+// Area of R(W): error against time for three methods (grid of oracle calls, certified quadtree, sweep), as CSV on
+// stdout.
 //   bench_region                  the postures of theory section 9
-//   bench_region --random N       instead: areas of N random postures against grids of oracle calls, within the grids' error
+//   bench_region --random N       instead: areas of N random postures against grids of oracle calls, within the grids'
+//   error
 // Errors are against the sweep at its finest, whose own bound is in the last column.
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,6 @@
-// Writes docs/extremes.md: the catalogue of stiff and extreme postures, decided by plain doubles, by surefoot, by exact arithmetic and by
-// a general LP solver. `extremes [FILE]`, standard output without one. All but the last table is the same on every run.
+// Writes docs/extremes.md: the catalogue of stiff and extreme postures, decided by plain doubles, by surefoot, by exact
+// arithmetic and by a general LP solver. `extremes [FILE]`, standard output without one. All but the last table is the
+// same on every run.
 #include "bench/extremes.hpp"
 
 #include <algorithm>

@@ -18,12 +18,13 @@ struct TextOptions {
   bool explain = false;  ///< spell out what limits each stance and transfer
 };
 
-/// A table of steps with a summary. Safety factors have three significant digits, lengths at least a thousandth of the reach.
+/// A table of steps with a summary. Safety factors have three significant digits, lengths at least a thousandth of the
+/// reach.
 std::string to_text(const Scene& scene, const Plan& plan, const TextOptions& options = {});
 
 /// One line per stance and transfer; numbers in their shortest form that reads back to the same double. Legs are 1..3.
-/// Bytes that are not UTF-8 become U+FFFD. Throws std::invalid_argument if a number is not finite (safety factors may be
-/// infinite: "inf").
+/// Bytes that are not UTF-8 become U+FFFD. Throws std::invalid_argument if a number is not finite (safety factors may
+/// be infinite: "inf").
 std::string to_json(const Plan& plan);
 std::string to_yaml(const Plan& plan);  ///< the same tree, valid for readers of YAML 1.1 and 1.2
 
@@ -32,8 +33,8 @@ std::string to_yaml(const Plan& plan);  ///< the same tree, valid for readers of
 std::string to_svg(const Scene& scene, const Plan& plan);
 
 /// Reads JSON or YAML (JSON is YAML). Throws terrain::InputError with file:line:column. Positions are taken as written;
-/// whether they lie on the scene's terrain, and whether the steps make a gait, is for the verifier to say. Where a foothold
-/// gives no `normal` or `friction` (both are optional and derive from the terrain), Foothold's defaults stand.
+/// whether they lie on the scene's terrain, and whether the steps make a gait, is for the verifier to say. Where a
+/// foothold gives no `normal` or `friction` (both are optional and derive from the terrain), Foothold's defaults stand.
 Plan read_plan(const std::string& path);
 Plan parse_plan(std::string_view text, const std::string& name);
 

@@ -1,5 +1,5 @@
-// Lays a journey out on a page: one row if it fits at a readable size, else rows of equal length like the lines of a page.
-// Every stance has its home in exactly one row, which shows all of it.
+// Lays a journey out on a page: one row if it fits at a readable size, else rows of equal length like the lines of a
+// page. Every stance has its home in exactly one row, which shows all of it.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -221,7 +221,8 @@ class PlanPicture {
                  {.size = 9, .colour = "#fff", .anchor = "middle", .bold = true});
   }
 
-  /// A dot where a foot stands, and the number of the leg in the solid ground beneath; numbers that meet give way downwards.
+  /// A dot where a foot stands, and the number of the leg in the solid ground beneath; numbers that meet give way
+  /// downwards.
   void foot(const PageRow& row, const terrain::Foothold& foothold, int leg, bool start, Places& places) {
     const Vector2d at = row.view(foothold.position);
     const terrain::Segment* segment = terrain_.segment_of(foothold);

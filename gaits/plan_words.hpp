@@ -8,8 +8,8 @@
 
 namespace surefoot::gaits {
 
-/// What a limit means: ("UF", {0, 2}) -> "foot 1 slides along +t while foot 3 breaks away". `legs` (0..2) are the planted
-/// legs in increasing order, one per letter of a mode.
+/// What a limit means: ("UF", {0, 2}) -> "foot 1 slides along +t while foot 3 breaks away". `legs` (0..2) are the
+/// planted legs in increasing order, one per letter of a mode.
 std::string limit_in_words(const std::string& limit, const std::vector<int>& legs);
 
 /// Where the least safety factor of a plan is first met.

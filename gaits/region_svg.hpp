@@ -1,5 +1,5 @@
-// The picture of a stance's stability regions, in the manner of [OR-P, Figs. 3-5]: ground, contacts with their friction cones, the cells of
-// R_SS(W) shaded and numbered with a key that names the modes, rho and nu drawn as lengths.
+// The picture of a stance's stability regions, in the manner of [OR-P, Figs. 3-5]: ground, contacts with their friction
+// cones, the cells of R_SS(W) shaded and numbered with a key that names the modes, rho and nu drawn as lengths.
 #pragma once
 
 #include <optional>

@@ -35,8 +35,8 @@ double signed_area(const Polyline& polygon) {
   return twice / 2;
 }
 
-/// The solid lies to the right of a chain. A chain that nearly closes on itself bounds it alone; any other is taken to go on
-/// for ever in the direction to the right of its course, which is down for ground, up for a ceiling.
+/// The solid lies to the right of a chain. A chain that nearly closes on itself bounds it alone; any other is taken to
+/// go on for ever in the direction to the right of its course, which is down for ground, up for a ceiling.
 Polyline solid_of(const Polyline& chain, double far) {
   const Eigen::Vector2d course = chain.back() - chain.front();
   double length = 0;

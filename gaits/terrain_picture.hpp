@@ -1,5 +1,5 @@
-// Draws terrain into an SVG canvas: solid ground filled where it is clear which side is solid, hatched where chains nest;
-// the surface by what it offers to a foot. For every picture of a scene.
+// Draws terrain into an SVG canvas: solid ground filled where it is clear which side is solid, hatched where chains
+// nest; the surface by what it offers to a foot. For every picture of a scene.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
-// A table of aligned columns for the terminal. Cells are laid out first and coloured afterwards, so colours never move a
-// column. Widths count bytes: cells hold ASCII.
+// A table of aligned columns for the terminal. Cells are laid out first and coloured afterwards, so colours never move
+// a column. Widths count bytes: cells hold ASCII.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // Nearest node to a target for RRT: a linear scan over COMs kept side by side (about a nanosecond each, so a search of
 // some ten thousand nodes needs no more), in which a node that has been chosen often stands back. Without that a node
-// nearest to the goal from which no step leads on would be chosen for ever (P. Cheng and S. M. LaValle, "Reducing metric
-// sensitivity in randomized trajectory design", IROS 2001, count failures to the same end).
+// nearest to the goal from which no step leads on would be chosen for ever (P. Cheng and S. M. LaValle, "Reducing
+// metric sensitivity in randomized trajectory design", IROS 2001, count failures to the same end).
 #pragma once
 
 #include <ompl/datastructures/NearestNeighbors.h>

@@ -1,5 +1,5 @@
-// Objects for OMPL's alloc/free pairs that live as long as their space: OMPL 1.5's SST drops some of its states and controls
-// without freeing them. Not for several threads.
+// Objects for OMPL's alloc/free pairs that live as long as their space: OMPL 1.5's SST drops some of its states and
+// controls without freeing them. Not for several threads.
 #pragma once
 
 #include <deque>

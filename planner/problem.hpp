@@ -1,5 +1,6 @@
-// What is settled before the search: the first stances that the scene's start allows, and whether any stance reaches the
-// goal at all. What the scene gives is judged exactly; what it leaves open is chosen by even, deterministic sampling.
+// What is settled before the search: the first stances that the scene's start allows, and whether any stance reaches
+// the goal at all. What the scene gives is judged exactly; what it leaves open is chosen by even, deterministic
+// sampling.
 #pragma once
 
 #include <cstdint>

@@ -34,6 +34,7 @@ struct Question {
   std::optional<Eigen::Vector2d> com_to;
   double rho = 0;
   stability::DisturbanceBox box;
+  bool com_tolerance = false;
 };
 
 std::string shown(const json& value) {
@@ -118,7 +119,7 @@ Contact read_contact(const json& value, const std::string& place) {
 }
 
 Question read_question(std::string_view line) {
-  static const std::vector<std::string> keys{"contacts", "com", "com_to", "rho", "kappa", "nu", "restitution"};
+  static const std::vector<std::string> keys{"contacts", "com", "com_to", "rho", "kappa", "nu", "restitution", "com_tolerance"};
   if (line.find_first_not_of(" \t\r") == std::string_view::npos) throw BadLine("empty line, a JSON object is expected");
   const json object = parse(line);
   if (!object.is_object()) throw BadLine(fmt::format("found {}, expected a JSON object", shown(object)));
@@ -134,6 +135,11 @@ Question read_question(std::string_view line) {
   question.rho = number(required(object, "", "rho"), "rho", false);
   question.box.kappa = number(required(object, "", "kappa"), "kappa", true);
   question.box.nu = number(required(object, "", "nu"), "nu", true);
+  if (const auto wanted = object.find("com_tolerance"); wanted != object.end()) {
+    if (!wanted->is_boolean()) refuse("com_tolerance", *wanted, "true or false");
+    question.com_tolerance = wanted->get<bool>();
+    if (question.com_tolerance && question.com_to) throw BadLine("com_tolerance: a line has none, leave out com_to");
+  }
   return question;
 }
 
@@ -157,7 +163,8 @@ Answer ask_point(const RobustOracle& oracle, const Question& question) {
   answer.robust = oracle.robust(question.com);
   answer.factor = oracle.safety_factor(question.com);
   add_modes(answer.modes, oracle.feasible_modes(question.com));
-  answer.com_tolerance = stability::com_tolerance(question.contacts, question.rho, question.box, question.com);
+  if (question.com_tolerance)
+    answer.com_tolerance = stability::com_tolerance(question.contacts, question.rho, question.box, question.com);
   return answer;
 }
 
@@ -192,7 +199,9 @@ void write(std::string& out, const Answer& answer) {
     fmt::format_to(put, "{}\"{}\"", i == 0 ? "" : ", ", answer.modes[i]);
   out += ']';
   if (answer.lambda) fmt::format_to(put, R"(, "lambda": {})", *answer.lambda);
-  if (answer.com_tolerance && std::isfinite(*answer.com_tolerance))
+  if (answer.com_tolerance && std::isinf(*answer.com_tolerance))
+    out += R"(, "com_tolerance": "inf")";
+  else if (answer.com_tolerance)
     fmt::format_to(put, R"(, "com_tolerance": {})", *answer.com_tolerance);
   if (answer.uncertain) out += R"(, "uncertain": true)";
   const auto& [p, q] = answer.factor.witness;

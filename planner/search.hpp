@@ -1,6 +1,6 @@
 // The search for a 2-3-2 gait: OMPL over stances (state) and steps (control), then a clean-up of the path found.
-// A plan it returns has been put together from legal steps only (gaits/rules.hpp); the independent verifier has the last
-// word. That no plan was found proves nothing, unless the status is `infeasible`.
+// A plan it returns has been put together from legal steps only (gaits/rules.hpp); the independent verifier has the
+// last word. That no plan was found proves nothing, unless the status is `infeasible`.
 #pragma once
 
 #include <chrono>

@@ -111,8 +111,8 @@ class Shortener {
     return false;
   }
 
-  /// Puts `bridge` in place of path[i + 1 .. j]. Its last node stands where path[j] stood, but its free leg may come from
-  /// elsewhere: the next step must still be able to swing it.
+  /// Puts `bridge` in place of path[i + 1 .. j]. Its last node stands where path[j] stood, but its free leg may come
+  /// from elsewhere: the next step must still be able to swing it.
   bool replace(std::size_t i, std::size_t j, const std::vector<Node>& bridge, const Renaming& name) {
     std::vector<Node> rest;
     for (std::size_t k = j + 1; k < path_.size(); ++k) {

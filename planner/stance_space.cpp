@@ -22,7 +22,8 @@ constexpr int legal_tries = 8;
 /// Share of KPIECE1's steps that are chosen to get nearest the goal; the others are the first legal ones.
 constexpr double greedy_share = 0.5;
 
-/// Targets above the ground, where COMs can be: uniform over the length of the terrain, up to reach_max along the normal.
+/// Targets above the ground, where COMs can be: uniform over the length of the terrain, up to reach_max along the
+/// normal.
 class TargetSampler : public ob::StateSampler {
  public:
   TargetSampler(const ob::StateSpace* space, const gaits::Scene& scene) : ob::StateSampler(space), scene_(&scene) {

@@ -1,9 +1,11 @@
 // Does the open polygon {v : G_k . v > 0 for all rows k} meet the closed box W? In both directions by certificates:
 //   yes  a point of W where every row is positive (the witness wrench);
-//   no   multipliers y >= 0, y != 0, with (sum y_k G_k) . v negative at the four corners of W (Farkas). One or two rows with the
-//        box, or three rows without it, suffice: in (p, 1, q)-space a certificate needs at most three functionals, and with
-//        three rows none of them is a side of the box.
-// With exact rows the clipping alone decides; with doubles every certificate is checked against the rounding-error bound.
+//   no   multipliers y >= 0, y != 0, with (sum y_k G_k) . v negative at the four corners of W (Farkas). One or two rows
+//   with the
+//        box, or three rows without it, suffice: in (p, 1, q)-space a certificate needs at most three functionals, and
+//        with three rows none of them is a side of the box.
+// With exact rows the clipping alone decides; with doubles every certificate is checked against the rounding-error
+// bound.
 #pragma once
 
 #include <array>
@@ -79,7 +81,8 @@ Polygon<K> clipped(const Polygon<K>& polygon, const Row<K>& row) {
   return kept;
 }
 
-/// {rows >= 0} within the box. Rows are linear: one that is positive somewhere in it is positive at one of its vertices.
+/// {rows >= 0} within the box. Rows are linear: one that is positive somewhere in it is positive at one of its
+/// vertices.
 template <class K>
 Polygon<K> feasible_polygon(const RowList<K>& rows, const K& kappa, const K& nu) {
   Polygon<K> polygon = box_polygon<K>(kappa, nu);
@@ -89,15 +92,16 @@ Polygon<K> feasible_polygon(const RowList<K>& rows, const K& kappa, const K& nu)
 
 enum class Meeting { yes, no, uncertain };
 
-/// Whether every row exceeds its error bound at p = q = 0 or at a corner of the box: quick, but it does not see every witness.
+/// Whether every row exceeds its error bound at p = q = 0 or at a corner of the box: quick, but it does not see every
+/// witness.
 bool has_plain_witness(const RowList<double>& rows, const DisturbanceBox& box);
 
 /// Whether some point of the box satisfies all rows, with a witness or a certificate beyond the rows' error bounds.
 Meeting meets_box(const RowList<double>& rows, const DisturbanceBox& box);
 
-/// Whether a positive combination of two rows, times `sign`, is negative on the box for all three row lists, the Bernstein coefficients of
-/// rows on an interval (the errors are those of the first list, times the factor): no point of the box then satisfies all rows, times
-/// `sign`, anywhere on it.
+/// Whether a positive combination of two rows, times `sign`, is negative on the box for all three row lists, the
+/// Bernstein coefficients of rows on an interval (the errors are those of the first list, times the factor): no point
+/// of the box then satisfies all rows, times `sign`, anywhere on it.
 bool two_rows_miss_box(const std::array<const RowList<double>*, 3>& coefficients, double sign, const DisturbanceBox& box,
                        double error_factor);
 

@@ -1,5 +1,6 @@
-// The two conditions (*) of dual_certificate.hpp on an interval of a straight line of COMs, for a covector Z interpolated
-// between za and zb. `moment` holds the Bernstein coefficients (degree 2) of Z's moment about the COM. Times rho^2 throughout.
+// The two conditions (*) of dual_certificate.hpp on an interval of a straight line of COMs, for a covector Z
+// interpolated between za and zb. `moment` holds the Bernstein coefficients (degree 2) of Z's moment about the COM.
+// Times rho^2 throughout.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ bool negative_on_edge_at(const Row<K>& z, const K& moment, const Vec2<K>& c, con
   return rho2 * (z.p * c.x + z.one * c.y) + moment * s + slack < 0;
 }
 
-/// nu |moment| < rho^2 (Z_y - kappa |Z_x|) on the whole interval: Bernstein coefficients of degree 2; the right side is concave
-/// in Z, hence at least its linear interpolation.
+/// nu |moment| < rho^2 (Z_y - kappa |Z_x|) on the whole interval: Bernstein coefficients of degree 2; the right side is
+/// concave in Z, hence at least its linear interpolation.
 template <class K>
 bool positive_on_corners(const Row<K>& za, const Row<K>& zb, const std::array<K, 3>& moment, const K& rho2,
                          const DisturbanceBox& box, const K& slack) {

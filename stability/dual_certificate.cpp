@@ -11,8 +11,8 @@ using Kind = ModeSpec::Kind;
 
 namespace {
 
-/// Twists (v tau, alpha) along tau = sigma t_i with v > 0 and v a_l + alpha b_l > 0 for every other contact, where a_l = sigma n_l x n_i and
-/// b_l = (x_l - x_i) x n_l: alpha / v lies between -a_l / b_l over b_l > 0 and over b_l < 0.
+/// Twists (v tau, alpha) along tau = sigma t_i with v > 0 and v a_l + alpha b_l > 0 for every other contact, where a_l
+/// = sigma n_l x n_i and b_l = (x_l - x_i) x n_l: alpha / v lies between -a_l / b_l over b_l > 0 and over b_l < 0.
 template <class K>
 TwistCone<K> slide_cone(const Posture& posture, const ModeSpec& spec) {
   const int i = spec.i;
@@ -225,7 +225,8 @@ Covector DualCertificate::propose_breaks(const Frame<double>& frame) const {
   return best;
 }
 
-/// Z not negative on K beyond the rounding error of Z . e: e has components of at most 2 (twice the spread for lengths).
+/// Z not negative on K beyond the rounding error of Z . e: e has components of at most 2 (twice the spread for
+/// lengths).
 bool DualCertificate::surely_in_cone(const Row<double>& z) const {
   const double force = std::abs(z.p) + std::abs(z.one);
   const double error = row_error_factor * (std::abs(z.q) + 2 * line_.posture.spread() * force) + underflow_slack;
@@ -284,8 +285,8 @@ bool DualCertificate::proves(const Covector& a, const Frame<double>& frame_a, co
   const Posture& posture = line_.posture;
   const Row<double> za = covector_about_contact<double>(posture, spec_, a);
   const Row<double> zb = covector_about_contact<double>(posture, spec_, b);
-  // Errors as in guard.hpp, for |Z_x| + |Z_y| = force and a moment of at most |Z_0| + R force about any COM of the line.
-  // A sum of normals (all_break) has the errors of its terms, however small it is itself: |n| <= 2 in the 1-norm.
+  // Errors as in guard.hpp, for |Z_x| + |Z_y| = force and a moment of at most |Z_0| + R force about any COM of the
+  // line. A sum of normals (all_break) has the errors of its terms, however small it is itself: |n| <= 2 in the 1-norm.
   const auto size = [&](const Covector& c, const Row<double>& z) {
     return spec_.kind == Kind::all_break ? 2 * (c.z.p + c.z.one + c.z.q) : std::abs(z.p) + std::abs(z.one);
   };

@@ -1,14 +1,15 @@
 // Proofs that a non-static mode is infeasible for every wrench of W, at a point or along a straight line of COMs.
 //
-// A mode asks for forces phi_m >= 0 along some cone edges and a twist xi = M^-1 (w + sum phi_m s_m) in a kinematic cone K:
-// contacts that stay do not move along their normals, slides have their direction, rolls do not slide, the others open. K does
-// not depend on the COM. If a covector Z is not negative on K and, with v = (p, 1, q) = -w,
-//     Z . M^-1 v > 0 at the corners of W      and      Z . M^-1 s_m < 0 for every such edge,                          (*)
+// A mode asks for forces phi_m >= 0 along some cone edges and a twist xi = M^-1 (w + sum phi_m s_m) in a kinematic cone
+// K: contacts that stay do not move along their normals, slides have their direction, rolls do not slide, the others
+// open. K does not depend on the COM. If a covector Z is not negative on K and, with v = (p, 1, q) = -w,
+//     Z . M^-1 v > 0 at the corners of W      and      Z . M^-1 s_m < 0 for every such edge,
+//     (*)
 // then Z . xi = -Z . M^-1 v + sum phi_m Z . M^-1 s_m < 0, against Z . xi >= 0: infeasible. Conversely (Farkas) such a Z
 // exists wherever the mode is infeasible with any margin, also where the denominator D of the mode's rows vanishes.
 //
-// Along a line of COMs, Z is interpolated between the covectors found at two points of it. It stays in its cone, which is
-// convex; Z's moment about the COM is then quadratic and (*) cubic at most, and all Bernstein coefficients on the
+// Along a line of COMs, Z is interpolated between the covectors found at two points of it. It stays in its cone, which
+// is convex; Z's moment about the COM is then quadratic and (*) cubic at most, and all Bernstein coefficients on the
 // interval having the right sign proves (*) on all of it. Halving the interval makes the proof sharper by its square.
 #pragma once
 
@@ -19,8 +20,8 @@
 
 namespace surefoot::stability {
 
-/// A proof at one COM. For all_break: multipliers of N_1, N_2, N_3. Otherwise Z about the position of contact spec.i, so that
-/// Z . (velocity of that point, alpha) = p v_x + one v_y + q alpha.
+/// A proof at one COM. For all_break: multipliers of N_1, N_2, N_3. Otherwise Z about the position of contact spec.i,
+/// so that Z . (velocity of that point, alpha) = p v_x + one v_y + q alpha.
 struct Covector {
   Row<double> z;
   bool found;
@@ -60,15 +61,16 @@ class DualCertificate {
  public:
   DualCertificate(const LineFrame& line, const ModeSpec& spec);
 
-  /// A covector well inside the cone of those that satisfy all conditions at the COM of `frame`. That it is not negative on K is
-  /// certain; (*) is only proposed.
+  /// A covector well inside the cone of those that satisfy all conditions at the COM of `frame`. That it is not
+  /// negative on K is certain; (*) is only proposed.
   Covector propose(const Frame<double>& frame) const;
-  /// Whether `a` at the COM of frame_a and `b` at that of frame_b, proposed there, prove the mode infeasible on the straight line between
-  /// these COMs: in doubles with error bounds, or exactly.
+  /// Whether `a` at the COM of frame_a and `b` at that of frame_b, proposed there, prove the mode infeasible on the
+  /// straight line between these COMs: in doubles with error bounds, or exactly.
   bool proves(const Covector& a, const Frame<double>& frame_a, const Covector& b, const Frame<double>& frame_b) const;
   bool proves(const Covector& a, const Frame<Dyadic>& frame_a, const Covector& b, const Frame<Dyadic>& frame_b) const;
-  /// Where W has no extent along an axis: whether the covector along that axis, which reads no wrench of W at all, proves the mode
-  /// infeasible between the COMs of the frames. If Z is positive on K, the inequalities (*) need not be strict. Exact.
+  /// Where W has no extent along an axis: whether the covector along that axis, which reads no wrench of W at all,
+  /// proves the mode infeasible between the COMs of the frames. If Z is positive on K, the inequalities (*) need not be
+  /// strict. Exact.
   bool proves_along_axis(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const;
 
  private:

@@ -1,5 +1,6 @@
-// Exact numbers m 2^e: doubles are dyadic, and sums and products of dyadic numbers are dyadic again. Every decision of this
-// folder is the sign of a polynomial in the doubles given, so no division and hence no common factor is ever needed.
+// Exact numbers m 2^e: doubles are dyadic, and sums and products of dyadic numbers are dyadic again. Every decision of
+// this folder is the sign of a polynomial in the doubles given, so no division and hence no common factor is ever
+// needed.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>

@@ -1,8 +1,9 @@
 // Bounds on the rounding error of the rows of rows.hpp in double precision.
 //
 // Let u = 2^-53. Normals are scaled by powers of two so that |n_x|, |n_y| <= 1; a = 1 + max mu bounds the components of
-// cone edges; R bounds |r_x| + |r_y| over contacts (and over the line, where there is one); rho2 = rho^2. Errors, relative
-// to the magnitude given, follow by counting operations ("k u" below; second-order terms are absorbed by rounding up):
+// cone edges; R bounds |r_x| + |r_y| over contacts (and over the line, where there is one); rho2 = rho^2. Errors,
+// relative to the magnitude given, follow by counting operations ("k u" below; second-order terms are absorbed by
+// rounding up):
 //   r = fl(x_i - x)                        1 u of R
 //   nz = r x n                             3 u of R            sz = r x C       5 u of a R      (C itself: 2 u of a)
 //   normal_cross p, one                    5 u of 2 R          q slot           2 u of 2
@@ -12,12 +13,12 @@
 //   z of two slides p, one                 9 u of 2 a^2 R      q slot           6 u of 2 a^2
 //   slide_denominator                     10 u of 2 a (rho2 + R^2)
 //   two-slide denominator                 17 u of 8 a^2 (rho2 + R^2)
-// A row's value at (p, q) with |p| <= P, |q| <= Q adds 3 u of its magnitude. Hence every row value of the first class has an
-// error of at most 64 u a ((rho2 + R^2)(1 + P) + R Q), of the length class 64 u a^2 (R (1 + P) + Q), and every
+// A row's value at (p, q) with |p| <= P, |q| <= Q adds 3 u of its magnitude. Hence every row value of the first class
+// has an error of at most 64 u a ((rho2 + R^2)(1 + P) + R Q), of the length class 64 u a^2 (R (1 + P) + Q), and every
 // denominator of at most 136 u a^2 (rho2 + R^2). At a point of a line r has 4 u, which the factor below
 // contains: 136 * 3 < 512. Underflow adds an absolute error below `underflow_slack` while all quantities are within
 // [1e-70, 1e70] or 0; outside of that the bounds are infinite and nothing is certain. What is not certain is decided
-// in rationals.
+// exactly.
 #pragma once
 
 #include <limits>

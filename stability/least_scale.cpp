@@ -96,7 +96,8 @@ void move_to_line(LeastScale<K>& result, const ScaledRows<K>& rows, int k) {
   }
   if (within.low_row >= 0 && within.high_row >= 0 && !(within.low < within.high))
     return exclude_by_three(result, rows, within.low_row, within.high_row, k);
-  // |.|_inf is convex along the line with its minimum at t = 0 (or on a stretch around it): the nearest end of the interval.
+  // |.|_inf is convex along the line with its minimum at t = 0 (or on a stretch around it): the nearest end of the
+  // interval.
   K t(0);
   int partner = -1;
   if (within.low_row >= 0 && within.low > 0) t = within.low, partner = within.low_row;
@@ -142,8 +143,8 @@ template LeastScale<Fraction> least_scale(const ScaledRows<Fraction>&, const std
 
 namespace {
 
-/// Collects a mode's rows with their error bounds, the sign of D applied. Stops early when a row alone excludes the mode up to
-/// `level`, or when D is too small for its sign.
+/// Collects a mode's rows with their error bounds, the sign of D applied. Stops early when a row alone excludes the
+/// mode up to `level`, or when D is too small for its sign.
 class ScaleSink {
  public:
   ScaleSink(const ScaleErrors& errors, const ModeSpec& spec, const DisturbanceBox& box, double level)
@@ -186,7 +187,8 @@ class ScaleSink {
   double sign_ = 1;
 };
 
-/// The level up to which the dual solution proves the mode infeasible. (The rounding of these sums is within the errors.)
+/// The level up to which the dual solution proves the mode infeasible. (The rounding of these sums is within the
+/// errors.)
 double proved_from_below(const LeastScale<double>& least, const ScaleSink& sink) {
   Vec2<double> a{0, 0};
   double rest = 0, growth = 0;
@@ -200,8 +202,9 @@ double proved_from_below(const LeastScale<double>& least, const ScaleSink& sink)
   return rest > 0 ? rest / (norm(a) + growth) : 0;
 }
 
-/// Whether the rows exclude one another for disturbances of any size: three rows whose gradients surely span the plane positively
-/// and whose determinant is surely negative, or two opposite ones where an axis is pinned. The true multipliers are near y.
+/// Whether the rows exclude one another for disturbances of any size: three rows whose gradients surely span the plane
+/// positively and whose determinant is surely negative, or two opposite ones where an axis is pinned. The true
+/// multipliers are near y.
 bool proved_at_any_level(const LeastScale<double>& least, const ScaleSink& sink, bool pinned) {
   if (!least.empty) return false;
   const auto row = [&](int k) -> const ScaledRow<double>& { return sink.rows.row[least.row[k]]; };
@@ -243,9 +246,9 @@ bool well_conditioned(const LeastScale<double>& least, const ScaleSink& sink) {
   return std::abs(cross(a, b)) * gradient_accuracy > error;
 }
 
-/// Whether the mode is surely feasible somewhere in (1 + eps) s W: a step from the optimum, of size eps s, along the bisector of
-/// two rows that vanish there. These are the active ones, unless more than two lines meet there (as they do where the
-/// twist vanishes).
+/// Whether the mode is surely feasible somewhere in (1 + eps) s W: a step from the optimum, of size eps s, along the
+/// bisector of two rows that vanish there. These are the active ones, unless more than two lines meet there (as they do
+/// where the twist vanishes).
 bool proved_from_above(const LeastScale<double>& least, const ScaleSink& sink) {
   const double step = safety_factor_accuracy * least.s, level = least.s + step;
   const Vec2<double>& v = least.v;
@@ -368,8 +371,8 @@ ExactRows exact_rows(const RowSink<Dyadic>& sink, bool negative, const Disturban
   return rows;
 }
 
-/// Whether {rows > 0} has points next to v: the rows that vanish at v must have gradients within an open half-plane, that is
-/// between two of them that turn by less than half a circle.
+/// Whether {rows > 0} has points next to v: the rows that vanish at v must have gradients within an open half-plane,
+/// that is between two of them that turn by less than half a circle.
 bool opens_at(const ScaledRows<Fraction>& rows, const Vec2<Fraction>& v) {
   std::array<Vec2<Fraction>, max_rows> a;
   int count = 0;

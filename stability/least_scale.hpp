@@ -1,10 +1,12 @@
-// A mode's part of the safety factor (theory section 5): the least s >= 0 such that the open polygon {G_k . (p, 1, q) > 0} of the
-// mode meets s W. A linear program in (p, q, s), solved incrementally (Seidel) with its dual. One formulation for two number
-// types: in doubles, where bounds on either side then prove the value; in fractions, where they do not.
+// A mode's part of the safety factor (theory section 5): the least s >= 0 such that the open polygon {G_k . (p, 1, q) >
+// 0} of the mode meets s W. A linear program in (p, q, s), solved incrementally (Seidel) with its dual. One formulation
+// for two number types: in doubles, where bounds on either side then prove the value; in fractions, where they do not.
 //
 // Proof of a value s found in doubles, every row G_k being within e_k(s) = c_k + s l_k of the true one anywhere in s W:
-//   from below  for any y >= 0, with A = |sum y_k a_k|_1 in box coordinates (P, Q) = (p / kappa, q / nu), the sum of the true
-//               rows is at most s' A + sum y_k (b_k + e_k(s')) on s' W. Negative: none of s' W is feasible. The dual solution is y.
+//   from below  for any y >= 0, with A = |sum y_k a_k|_1 in box coordinates (P, Q) = (p / kappa, q / nu), the sum of
+//   the true
+//               rows is at most s' A + sum y_k (b_k + e_k(s')) on s' W. Negative: none of s' W is feasible. The dual
+//               solution is y.
 //   from above  a point of (1 + eps) s W where every row exceeds e_k((1 + eps) s).
 #pragma once
 
@@ -24,9 +26,11 @@ using Fraction = boost::multiprecision::number<boost::multiprecision::gmp_ration
 /// Exact.
 Fraction fraction(const Dyadic& value);
 
-/// Safety factors are within this relative distance of the true value; where doubles cannot prove it, fractions are used.
+/// Safety factors are within this relative distance of the true value; where doubles cannot prove it, fractions are
+/// used.
 constexpr double safety_factor_accuracy = 1e-9;
-/// Doubles prove nothing beyond this factor: disturbances that exceed the body's weight this much are left to fractions.
+/// Doubles prove nothing beyond this factor: disturbances that exceed the body's weight this much are left to
+/// fractions.
 constexpr double greatest_proved_scale = 1e9;
 
 /// A row in box coordinates: a . (P, Q) + b > 0. A pinned axis (kappa or nu = 0) has coefficient 0.
@@ -48,7 +52,8 @@ struct LeastScale {
   bool empty = false;  ///< no point in the plane satisfies the rows
   K s = K(0);
   Vec2<K> v{K(0), K(0)};  ///< in box coordinates, where s is attained
-  /// Multipliers of the active rows: sum y_k a_k is an outward normal of the side(s) of s W reached, of 1-norm 1; zero if `empty`.
+  /// Multipliers of the active rows: sum y_k a_k is an outward normal of the side(s) of s W reached, of 1-norm 1; zero
+  /// if `empty`.
   int active = 0;
   std::array<int, 3> row{};
   std::array<K, 3> y{K(0), K(0), K(0)};
@@ -71,8 +76,8 @@ struct RowErrors {
   double constant, linear;
 };
 
-/// From the derivation in guard.hpp (there at the end: 64 u a and 64 u a^2). Rows of normals alone need 2 u of rho^2, 3 u
-/// of R, and 3 u for their value.
+/// From the derivation in guard.hpp (there at the end: 64 u a and 64 u a^2). Rows of normals alone need 2 u of rho^2, 3
+/// u of R, and 3 u for their value.
 struct ScaleErrors {
   RowErrors area, length, normal;
   double denominator;

@@ -79,8 +79,8 @@ bool Station::has_witness(const LineFrame& line, int k) {
   return has_plain_witness(signed_rows(here.list, here.denominator), line.box);
 }
 
-/// xi is a multiple of one twist; the sign of the multiple is that of -R . v for a roll about x_i (whatever the force, which acts there), of
-/// -z . v / D for two slides. R and z are linear along the line, D is quadratic.
+/// xi is a multiple of one twist; the sign of the multiple is that of -R . v for a roll about x_i (whatever the force,
+/// which acts there), of -z . v / D for two slides. R and z are linear along the line, D is quadratic.
 bool LineInterval::excludes_by_direction(const ModeSpec& spec) const {
   if (spec.sense == 0) return false;
   const Frame<double>&a = a_.frame(), &b = b_.frame();

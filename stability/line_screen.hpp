@@ -1,7 +1,8 @@
 // Fast proofs that modes are infeasible for every wrench of W on an interval of a straight line of COMs:
-//   1. one or two of the mode's rows with fixed multipliers are negative on all of W along the interval, by the Bernstein coefficients of
-//      the rows, which are quadratic in lambda; for both signs of the denominator, if it does not keep its sign;
-//      Along the one twist that a roll or two slides leave, the direction is such a row that is cheap to have;
+//   1. one or two of the mode's rows with fixed multipliers are negative on all of W along the interval, by the
+//      Bernstein coefficients of the rows, which are quadratic in lambda; for both signs of the denominator, if it does
+//      not keep its sign; Along the one twist that a roll or two slides leave, the direction is such a row that is
+//      cheap to have;
 //   2. a covector interpolated between the ends (dual_certificate.hpp), also where the denominator vanishes.
 // Rows and covectors are found once per station and serve all intervals it belongs to.
 #pragma once

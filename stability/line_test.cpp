@@ -26,8 +26,8 @@ struct Proposal {
   Covector covector;
 };
 
-/// Proves intervals from `lambda` on, each twice as long as the last where that works, half as long where not; proves(a, b)
-/// decides between two proposals. Returns the lambda reached.
+/// Proves intervals from `lambda` on, each twice as long as the last where that works, half as long where not;
+/// proves(a, b) decides between two proposals. Returns the lambda reached.
 template <class Propose, class Proves>
 double proved_up_to(double lambda, int intervals, Propose&& propose_at, Proves&& proves) {
   Proposal here = propose_at(lambda);

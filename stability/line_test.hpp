@@ -1,5 +1,6 @@
-// Straight lines of COMs on fixed contacts [OR-P, section VII; theory section 6]: is a mode infeasible at every lambda in [0, 1]?
-// Intervals of lambda are proved one after the other with dual certificates (dual_certificate.hpp), found at their ends.
+// Straight lines of COMs on fixed contacts [OR-P, section VII; theory section 6]: is a mode infeasible at every lambda
+// in [0, 1]? Intervals of lambda are proved one after the other with dual certificates (dual_certificate.hpp), found at
+// their ends.
 #pragma once
 
 #include <array>
@@ -34,11 +35,11 @@ class LineQuery {
  public:
   LineQuery(const Posture& posture, const Eigen::Vector2d& from, const Eigen::Vector2d& to, const DisturbanceBox& box);
 
-  /// Shared and closed-form certificates (line_screen.hpp) for the box scaled by s; stops at a feasible mode if it seeks and
-  /// meets one.
+  /// Shared and closed-form certificates (line_screen.hpp) for the box scaled by s; stops at a feasible mode if it
+  /// seeks and meets one.
   LineScan scan(double s = 1, bool seeks_feasible = true) const;
-  /// Decided for the doubles given: doubles with error bounds first, exact numbers where these cannot tell. The mode is known to
-  /// be infeasible up to `from`.
+  /// Decided for the doubles given: doubles with error bounds first, exact numbers where these cannot tell. The mode is
+  /// known to be infeasible up to `from`.
   LineMode feasible(const ModeSpec& spec, double from = 0) const;
   /// Up to which lambda, from `lambda` on, the mode is proved infeasible for the box scaled by s. Doubles only.
   double excluded_up_to(const ModeSpec& spec, double s, double lambda) const;

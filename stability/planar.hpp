@@ -1,4 +1,4 @@
-// Planar vectors over any number type: doubles, exact rationals, dual numbers.
+// Planar vectors over any number type: doubles, exact numbers, dual numbers.
 // One formulation of every formula serves all of them.
 #pragma once
 

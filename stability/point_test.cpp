@@ -15,7 +15,8 @@ double greatest_offset(const Frame<double>& frame) {
   return radius;
 }
 
-/// The polygon of {rows >= 0} in the box has a point where every row is positive iff each row is positive at one of its vertices.
+/// The polygon of {rows >= 0} in the box has a point where every row is positive iff each row is positive at one of its
+/// vertices.
 bool meets_with_sign(const RowSink<Dyadic>& sink, bool negative, const DisturbanceBox& box) {
   const RowList<Dyadic>& rows = sink.rows;
   RowList<Dyadic> signed_rows = rows;
@@ -25,8 +26,9 @@ bool meets_with_sign(const RowSink<Dyadic>& sink, bool negative, const Disturban
   if (polygon.count == 0) return false;
   for (int k = 0; k < rows.count; ++k) {
     const Row<Dyadic>& row = signed_rows.row[k];
-    // Theory section 4 drops rows that vanish for every COM: the direction of two slides does, where z = s_i x s_j = 0. The other rows
-    // that do are not emitted (ModeSpec::row_vanishes); one that vanishes at this COM only is not positive.
+    // Theory section 4 drops rows that vanish for every COM: the direction of two slides does, where z = s_i x s_j = 0.
+    // The other rows that do are not emitted (ModeSpec::row_vanishes); one that vanishes at this COM only is not
+    // positive.
     if (k == sink.direction && row.p.is_zero() && row.one.is_zero() && row.q.is_zero()) continue;
     bool positive = false;
     for (int v = 0; v < polygon.count && !positive; ++v) positive = weighted_value(row, polygon.at[v]) > 0;
@@ -69,7 +71,8 @@ bool PointQuery::equilibrium() const {
   if (posture_.flat_cone()) return false;
   // g = (p, 1, X_x - p X_y + q) with X = com - x_1: a facet's least value over W is at a corner.
   const double x = com_.x() - posture_.position(0).x(), y = com_.y() - posture_.position(0).y();
-  // z has errors below facet_error (times lengths), the sum at most 8 u of the magnitudes, which facet_error bounds too.
+  // z has errors below facet_error (times lengths), the sum at most 8 u of the magnitudes, which facet_error bounds
+  // too.
   const double lengths = posture_.spread() + std::abs(x) + std::abs(y);
   const double error = 4 * posture_.facet_error() * (lengths * (1 + box_.kappa) + box_.nu) + underflow_slack;
   for (const Facet& facet : posture_.facets()) {

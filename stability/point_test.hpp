@@ -1,4 +1,4 @@
-// Is a non-static mode feasible at one COM for some wrench of W? Doubles with certificates first, rationals where
+// Is a non-static mode feasible at one COM for some wrench of W? Doubles with certificates first, exact numbers where
 // these cannot tell.
 #pragma once
 
@@ -38,8 +38,8 @@ class PointQuery {
   std::optional<Frame<Dyadic>> exact_;
 };
 
-/// Collects a mode's rows in doubles with their error bounds, the sign of D applied. Stops early when a row alone excludes
-/// the mode for the whole box.
+/// Collects a mode's rows in doubles with their error bounds, the sign of D applied. Stops early when a row alone
+/// excludes the mode for the whole box.
 class PointSink {
  public:
   PointSink(const Guard& guard, const DisturbanceBox& box) : guard_(guard), box_(box) {}

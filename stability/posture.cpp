@@ -67,7 +67,8 @@ int opening_sign(const Eigen::Vector2d& xi, const Eigen::Vector2d& xl, const Vec
   });
 }
 
-/// N_l . (N_i x N_j): the rate at which contact l opens when i and j slide. Independent of the COM (evaluated about x_i).
+/// N_l . (N_i x N_j): the rate at which contact l opens when i and j slide. Independent of the COM (evaluated about
+/// x_i).
 template <class K>
 K opening_of_slide(const Vec2<K>& dj, const Vec2<K>& dl, const Vec2<K>& ni, const Vec2<K>& nj, const Vec2<K>& nl) {
   return cross(dj, nj) * cross(nl, ni) + cross(dl, nl) * cross(ni, nj);
@@ -217,8 +218,8 @@ bool Posture::parallel(int a, int b) const {
   return exact.p.is_zero() && exact.one.is_zero() && exact.q.is_zero();
 }
 
-/// Rays a < b span a plane that an earlier pair has spanned already if a third ray lies in it (`coplanar`, bit c) and pairs with one
-/// of them earlier in the order.
+/// Rays a < b span a plane that an earlier pair has spanned already if a third ray lies in it (`coplanar`, bit c) and
+/// pairs with one of them earlier in the order.
 bool Posture::is_new_plane(int a, int b, unsigned coplanar) const {
   for (int c = 0; c < b; ++c) {
     if (c == a || !(coplanar >> c & 1)) continue;
@@ -246,8 +247,9 @@ constexpr auto ray_pairs = [] {
 
 }  // namespace
 
-/// A pair of rays spans a facet if no two others lie on different sides of its plane. The sides of all pairs follow from
-/// the signs of the triple products of a < b < c: c's side of (a, b) and a's of (b, c) have that sign, b's of (a, c) the opposite one.
+/// A pair of rays spans a facet if no two others lie on different sides of its plane. The sides of all pairs follow
+/// from the signs of the triple products of a < b < c: c's side of (a, b) and a's of (b, c) have that sign, b's of (a,
+/// c) the opposite one.
 template <int rays>
 void Posture::find_facets() {
   for (int i = 0; i < rays / 2; ++i)
@@ -337,10 +339,11 @@ int Posture::normal_cross_sign(int i, int j) const {
   return certain_sign(cross(normal_[i], normal_[j]), bound, [&] { return cross(normal<Dyadic>(i), normal<Dyadic>(j)); });
 }
 
-/// Sliding at i leaves two freedoms: the speed v along t_i and a rotation alpha about x_i, in which contact l opens at the rate
-/// v (n_l x n_i) + alpha (x_l - x_i) x n_l. Whether some (v, alpha) with sigma v > 0 opens every other contact does not
-/// depend on the COM. With two others that the rotation opens in opposite senses, elimination of alpha leaves the sign of
-/// N_l . (N_i x N_j). (Left to the rows, an impossible mode would have linearly dependent rows, a tangential case.)
+/// Sliding at i leaves two freedoms: the speed v along t_i and a rotation alpha about x_i, in which contact l opens at
+/// the rate v (n_l x n_i) + alpha (x_l - x_i) x n_l. Whether some (v, alpha) with sigma v > 0 opens every other contact
+/// does not depend on the COM. With two others that the rotation opens in opposite senses, elimination of alpha leaves
+/// the sign of N_l . (N_i x N_j). (Left to the rows, an impossible mode would have linearly dependent rows, a
+/// tangential case.)
 void Posture::list_slides(int i) {
   int positive = -1, negative = -1;
   bool along = true, against = true;  // sigma = 1, sigma = -1
@@ -388,8 +391,9 @@ int Posture::opening_of_third(int i, int j, int l) const {
   return even ? triple_sign_ : -triple_sign_;
 }
 
-/// Along c = N_i x N_j contact i slides as T_i . c = |n_i|^2 (x_j - x_i) x n_j says, contact j as T_j . c = -|n_j|^2 (x_i - x_j) x n_i,
-/// and the third opens as N_l . c. The mode needs all of them (where they are not zero) to agree with one sign of xi along c.
+/// Along c = N_i x N_j contact i slides as T_i . c = |n_i|^2 (x_j - x_i) x n_j says, contact j as T_j . c = -|n_j|^2
+/// (x_i - x_j) x n_i, and the third opens as N_l . c. The mode needs all of them (where they are not zero) to agree
+/// with one sign of xi along c.
 void Posture::list_two_slides(int i, int j) {
   const int slide_i = turn_sign_[i][j];
   const int slide_j = -turn_sign_[j][i];

@@ -42,7 +42,7 @@ class Posture {
 
   /// sign of (x_l - x_i) x n_l: does contact l open (+1) when the body turns about contact i?
   int turn_sign(int i, int l) const { return turn_sign_[i][l]; }
-  /// Normals (scaled for doubles, as given for rationals) and x_l - x_i.
+  /// Normals (scaled for doubles, as given for exact numbers) and x_l - x_i.
   template <class K>
   Vec2<K> normal(int i) const;
   template <class K>

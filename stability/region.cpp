@@ -87,7 +87,8 @@ bool bounded(const std::vector<LabelledHalfPlane>& planes) {
   return !planes.empty();
 }
 
-/// Large enough to hold the intersection of the half-planes, which is bounded: its corners are among their meeting points.
+/// Large enough to hold the intersection of the half-planes, which is bounded: its corners are among their meeting
+/// points.
 AlignedBox2d around_all(const std::vector<LabelledHalfPlane>& planes, const AlignedBox2d& least) {
   AlignedBox2d box = least;
   for (std::size_t i = 0; i < planes.size(); ++i)
@@ -102,8 +103,8 @@ AlignedBox2d around_all(const std::vector<LabelledHalfPlane>& planes, const Alig
   return {box.min() - room, box.max() + room};
 }
 
-/// A direction for the lines of the sweep that is far from those of straight boundaries: normals (all contacts break), tangents, and
-/// the sides of R_SS(W); nearly level, since regions are mostly tall.
+/// A direction for the lines of the sweep that is far from those of straight boundaries: normals (all contacts break),
+/// tangents, and the sides of R_SS(W); nearly level, since regions are mostly tall.
 Vector2d line_direction(std::span<const Contact> contacts, const std::vector<LabelledHalfPlane>& planes) {
   std::vector<Vector2d> avoided{{0, 1}, {1, 0}};
   for (const Contact& contact : contacts) {

@@ -1,21 +1,23 @@
-// The stability regions of a stance [OR-P, Figs. 2-5]: R_SS(W) as an arrangement of cells, each with the set of non-static modes that
-// are feasible there for some wrench of W. The cells without modes make up the robust stability region R(W); with a box of one
-// wrench they are the strong stability region R(w).
+// The stability regions of a stance [OR-P, Figs. 2-5]: R_SS(W) as an arrangement of cells, each with the set of
+// non-static modes that are feasible there for some wrench of W. The cells without modes make up the robust stability
+// region R(W); with a box of one wrench they are the strong stability region R(w).
 //
-// Method: a sweep of straight lines on which the problem is solved exactly in one dimension (region_line.hpp). Between the places where
-// the order of curves along the line changes the ends of all intervals are smooth functions, which Gauss-Kronrod rules integrate to many
-// digits with few lines; those places are found by Newton's method on the pairs of curves that the lines on both sides name, else by
-// bisection. Why not something else: boundaries are quadratic up to sextic and touch or coincide on flat and symmetric ground, where
-// arrangement packages need exact algebraic numbers and fail or take seconds; the paper's list of silhouette
-// curves is incomplete [theory 8.7], while marching along a line needs no list; a quadtree is as robust but its error
-// falls only as one over its cost (bench/bench_region.cpp shows both). Lines are neither level nor upright but
-// in a direction away from all normals, tangents and the vertical, so that straight boundaries are not parallel to them.
+// Method: a sweep of straight lines on which the problem is solved exactly in one dimension (region_line.hpp). Between
+// the places where the order of curves along the line changes the ends of all intervals are smooth functions, which
+// Gauss-Kronrod rules integrate to many digits with few lines; those places are found by Newton's method on the pairs
+// of curves that the lines on both sides name, else by bisection. Why not something else: boundaries are quadratic up
+// to sextic and touch or coincide on flat and symmetric ground, where arrangement packages need exact algebraic numbers
+// and fail or take seconds; the paper's list of silhouette curves is incomplete [theory 8.7], while marching along a
+// line needs no list; a quadtree is as robust but its error falls only as one over its cost (bench/bench_region.cpp
+// shows both). Lines are neither level nor upright but in a direction away from all normals, tangents and the vertical,
+// so that straight boundaries are not parallel to them.
 //
-// Guarantee and limits. Modes are excluded from a strip of the sweep only by certificates that hold on rectangles covering it.
-// Each cell's set of modes is confirmed by RobustOracle at a point inside (for a box about gravity; otherwise by the rows in doubles);
-// a cell where that fails counts as error and is reported in `note`. `area_error` adds up the estimated errors of the rules
-// (difference of two orders) and bounds for what the sweep passed over; a cell that lies between two lines of
-// the sweep in a strip where its mode is not excluded (1/32 of the region's extent) can be missed.
+// Guarantee and limits. Modes are excluded from a strip of the sweep only by certificates that hold on rectangles
+// covering it. Each cell's set of modes is confirmed by RobustOracle at a point inside (for a box about gravity;
+// otherwise by the rows in doubles); a cell where that fails counts as error and is reported in `note`. `area_error`
+// adds up the estimated errors of the rules (difference of two orders) and bounds for what the sweep passed over; a
+// cell that lies between two lines of the sweep in a strip where its mode is not excluded (1/32 of the region's extent)
+// can be missed.
 #pragma once
 
 #include <Eigen/Geometry>

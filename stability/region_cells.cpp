@@ -106,8 +106,8 @@ class Cells {
 
   // ---- rings ------------------------------------------------------------------------------------------------------
 
-  /// Each piece gives two sides, each with an end at both lines of its slab. On the line between two slabs the ends of one cell, in
-  /// order, belong together two by two: the cell's parity changes at each.
+  /// Each piece gives two sides, each with an end at both lines of its slab. On the line between two slabs the ends of
+  /// one cell, in order, belong together two by two: the cell's parity changes at each.
   struct Side {
     std::size_t slab, curve;
     std::array<std::size_t, 2> next{};  // end beyond the line at a, at b
@@ -168,7 +168,8 @@ class Cells {
     return 0.5 * twice;
   }
 
-  /// Points closer than a small part of the tolerance to the one before, or on the straight line between their neighbours, are left out.
+  /// Points closer than a small part of the tolerance to the one before, or on the straight line between their
+  /// neighbours, are left out.
   void tidy(Points& ring) const {
     const double near = 1e-3 * tolerance_;
     Points kept;

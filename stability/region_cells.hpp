@@ -1,5 +1,5 @@
-// From slabs to cells: pieces with the same modes that touch across the lines between slabs are one cell; its boundary is
-// made of their curves, joined where slabs meet.
+// From slabs to cells: pieces with the same modes that touch across the lines between slabs are one cell; its boundary
+// is made of their curves, joined where slabs meet.
 #pragma once
 
 #include <Eigen/Core>

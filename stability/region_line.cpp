@@ -92,7 +92,8 @@ struct LineRows {
     return true;
   }
   /// On a side of the box a row is e + f w, w the free coordinate. Two rows that leave a narrow channel for w:
-  ///   feasible   at the edge w = -e_i / f_i of the channel all other rows are positive (f_i e_l - e_i f_l > 0 for f_i > 0), and
+  ///   feasible   at the edge w = -e_i / f_i of the channel all other rows are positive (f_i e_l - e_i f_l > 0 for f_i
+  ///   > 0), and
   ///              |w| < 1; a little inwards row i is positive too
   ///   excluded   |f_j| row_i + |f_i| row_j does not depend on w and is negative at this side and at the opposite one
   /// Polynomials of degree 4, wherever the channel leads.
@@ -206,8 +207,8 @@ class March {
       found_.crossings.push_back({t, curve, feasible_});
   }
 
-  /// Where one wrench or one set of multipliers does not last (two rows that are nearly opposite), one that moves on a straight line
-  /// from its value at t to that at t + leap may: what has to keep its sign is then a cubic.
+  /// Where one wrench or one set of multipliers does not last (two rows that are nearly opposite), one that moves on a
+  /// straight line from its value at t to that at t + leap may: what has to keep its sign is then a cubic.
   bool leaps(double& t, double& leap, Margin& m) {
     const bool channel = m.basis.kind == CurveId::side && rows_.channel_between(t, leap, m);
     const Margin far = rows_.margin_at(t + leap);

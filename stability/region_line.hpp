@@ -1,14 +1,15 @@
 // The exact one-dimensional problem: on a straight line of COMs, where is a mode feasible for some wrench of the box?
 //
 // Marching. At a point t where the mode is infeasible, the multipliers y that are best at t (region_rows.hpp) make
-// sum y_k row_k negative on the whole box; with y fixed that is four quadratics in t, so the mode stays infeasible up to
-// their first root. At a point where it is feasible, the best wrench v stays a witness up to the first root of the quadratics row_k . v. Either
-// bound touches the margin to first order, so that the steps approach an end of an interval quadratically, from one side, and pass none.
-// At the end the basis names the curve, Newton's method on that curve gives the last digits, and the march goes on beyond it.
-// Cost: one or two small programs for a mode that does not occur, four or five for each end of an interval.
+// sum y_k row_k negative on the whole box; with y fixed that is four quadratics in t, so the mode stays infeasible up
+// to their first root. At a point where it is feasible, the best wrench v stays a witness up to the first root of the
+// quadratics row_k . v. Either bound touches the margin to first order, so that the steps approach an end of an
+// interval quadratically, from one side, and pass none. At the end the basis names the curve, Newton's method on that
+// curve gives the last digits, and the march goes on beyond it. Cost: one or two small programs for a mode that does
+// not occur, four or five for each end of an interval.
 //
-// Intervals and gaps shorter than `line_step` of the chord are passed over. A march that does not get ahead (curves that coincide
-// along the line) is given up after most_steps and reported as uncertain.
+// Intervals and gaps shorter than `line_step` of the chord are passed over. A march that does not get ahead (curves
+// that coincide along the line) is given up after most_steps and reported as uncertain.
 #pragma once
 
 #include <vector>

@@ -92,8 +92,8 @@ void add_covectors(RegionMode& mode, const Frame<Poly2>& frame, const WrenchBox&
   add(at, at.n);
 }
 
-/// Rows scaled to size 1; those that vanish identically or repeat an earlier one are left out. Two rows that are opposite
-/// everywhere exclude the mode for every COM.
+/// Rows scaled to size 1; those that vanish identically or repeat an earlier one are left out. Two rows that are
+/// opposite everywhere exclude the mode for every COM.
 void tidy(RegionMode& mode) {
   int kept = 0;
   for (int k = 0; k < mode.count; ++k) {
@@ -331,8 +331,9 @@ bool excluded_with_sign(const RegionMode& mode, double sign, double s0, double d
   return true;
 }
 
-/// A slide moves as xi = -M^-1 v + phi M^-1 s with phi > 0 and N . xi = 0, whatever the sign of D: it is excluded where some
-/// Z = A + z N has Z . M^-1 v > 0 on the box and Z . M^-1 s < 0. (Near D = 0 the rows, multiplied by D, nearly depend on each other.)
+/// A slide moves as xi = -M^-1 v + phi M^-1 s with phi > 0 and N . xi = 0, whatever the sign of D: it is excluded where
+/// some Z = A + z N has Z . M^-1 v > 0 on the box and Z . M^-1 s < 0. (Near D = 0 the rows, multiplied by D, nearly
+/// depend on each other.)
 bool excluded_by_covector(const SlideCovector& a, const SlideCovector& n, double s0, double ds, double t0, double dt) {
   double low = -HUGE_VAL, high = HUGE_VAL;  // of z, in the middle
   const auto require = [&](double constant, double slope) {  // constant + z slope > 0

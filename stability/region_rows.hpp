@@ -1,14 +1,14 @@
-// The modes of a posture as functions of the COM: rows as polynomials (rows.hpp on Poly2), the margin by which a mode is
-// feasible in a box of wrenches, and the curves on which that margin vanishes.
+// The modes of a posture as functions of the COM: rows as polynomials (rows.hpp on Poly2), the margin by which a mode
+// is feasible in a box of wrenches, and the curves on which that margin vanishes.
 //
 // Wrenches. The box is scaled to |u| <= 1, |w| <= 1: p = p0 + kappa u, q = q0 + nu w. A row is then the form
-// one + u U + w W with three polynomials; a side without extent has U = 0 or W = 0. Any centre (p0, q0) is allowed, so that
-// one wrench and a box are one case.
+// one + u U + w W with three polynomials; a side without extent has U = 0 or W = 0. Any centre (p0, q0) is allowed, so
+// that one wrench and a box are one case.
 //
 // Margin. m(x) = max over the box of the least row (each row scaled to size 1 at x). A mode is feasible iff m > 0.
-// The maximum is a vertex of a linear program in (u, w, m): one row at a corner of W, two rows on a side, or three rows inside.
-// Its dual gives multipliers y >= 0 with sum y_k row_k <= m on the whole box: with y fixed, that sum is of degree 2 in x,
-// which bounds the mode on lines and in rectangles.
+// The maximum is a vertex of a linear program in (u, w, m): one row at a corner of W, two rows on a side, or three rows
+// inside. Its dual gives multipliers y >= 0 with sum y_k row_k <= m on the whole box: with y fixed, that sum is of
+// degree 2 in x, which bounds the mode on lines and in rectangles.
 //
 // Curves. m = 0 is there
 //   one row at a corner      one + u U + w W = 0                         degree 2
@@ -141,8 +141,9 @@ class RegionModes {
   void set_edges(std::vector<Poly2> edges) { edges_ = std::move(edges); }
   const std::vector<Poly2>& edges() const { return edges_; }
 
-  /// True if dual certificates exclude the mode in the whole rectangle |s - s0| <= ds, |t - t0| <= dt. `feasible` is set if the
-  /// mode is feasible in its middle. `closely`: more is tried for slides near D = 0, at about twice the cost.
+  /// True if dual certificates exclude the mode in the whole rectangle |s - s0| <= ds, |t - t0| <= dt. `feasible` is
+  /// set if the mode is feasible in its middle. `closely`: more is tried for slides near D = 0, at about twice the
+  /// cost.
   bool excluded(const RegionMode& mode, double s0, double ds, double t0, double dt, bool& feasible,
                 bool closely = false) const;
 

@@ -57,7 +57,8 @@ Sweep::Sweep(const RegionModes& modes, std::vector<Vector2d> polygon, double tol
 
 // ---- where modes can occur --------------------------------------------------------------------------------------
 
-/// Strips of equal width, or, where the polygon is much longer than the place of the contacts, growing with the distance from there.
+/// Strips of equal width, or, where the polygon is much longer than the place of the contacts, growing with the
+/// distance from there.
 void Sweep::make_strips() {
   const bool graded = s_end_ - s_begin_ > 8 * core_;
   const double from = graded ? std::asinh(s_begin_ / core_) : s_begin_, to = graded ? std::asinh(s_end_ / core_) : s_end_;
@@ -161,7 +162,8 @@ SweepLine Sweep::solve(double s) {
     if (exact > line.lo && exact < line.hi) crossing.t = exact;
     if (crossing.t - line.lo < close) line.begin_modes ^= 1u << crossing.curve.mode;
   }
-  // Some modes begin where the equilibrium ends (rolling over a foot): such curves run along the polygon and are no crossings.
+  // Some modes begin where the equilibrium ends (rolling over a foot): such curves run along the polygon and are no
+  // crossings.
   std::erase_if(line.at, [&](const Crossing& c) { return c.t - line.lo < close || line.hi - c.t < close; });
   std::sort(line.at.begin(), line.at.end(), [](const Crossing& x, const Crossing& y) { return x.t < y.t; });
   // Curves that run together come in the order of their names.
@@ -195,8 +197,8 @@ double Sweep::meeting(const CurveId& one, const CurveId& other, double s, double
   return NAN;
 }
 
-/// What is left of two lists of crossings when what they have in common at both ends is taken away. Curves that run together count as
-/// one.
+/// What is left of two lists of crossings when what they have in common at both ends is taken away. Curves that run
+/// together count as one.
 struct Sweep::Difference {
   std::vector<Crossing> x, y;
   bool head = false, tail = false;  // something was taken away there
@@ -260,8 +262,8 @@ bool Sweep::step_over(double a, const SweepLine& at_a, double b, const SweepLine
   return false;
 }
 
-/// On degenerate ground one curve has several names (rows that vanish together): what is named differently on two lines gets the
-/// name of the first where that curve runs through the same point of the second.
+/// On degenerate ground one curve has several names (rows that vanish together): what is named differently on two lines
+/// gets the name of the first where that curve runs through the same point of the second.
 void Sweep::reconcile(const SweepLine& first, SweepLine& second) const {
   if (first.at.size() != second.at.size()) return;
   const double close = closeness(second);
@@ -273,8 +275,8 @@ void Sweep::reconcile(const SweepLine& first, SweepLine& second) const {
   }
 }
 
-/// Slabs thinner than this are not looked into; on ground where curves coincide beyond what reconcile() sees through the work is
-/// limited by looking less closely, which area_error shows.
+/// Slabs thinner than this are not looked into; on ground where curves coincide beyond what reconcile() sees through
+/// the work is limited by looking less closely, which area_error shows.
 double Sweep::thinnest() const {
   constexpr int many = 1000;  // lines; typical: 100
   const double part = lines_ < many ? least_slab : lines_ < 2 * many ? 1e-5 : lines_ < 4 * many ? 1e-3 : 1;
@@ -336,8 +338,8 @@ Slab Sweep::make_slab(double a, double b, const SweepLine& at_a, const SweepLine
   return slab;
 }
 
-/// t of all curves of a slab at s = a + (b - a) share(u), by Newton's method from the three lines known; false where that
-/// does not keep the order of curves.
+/// t of all curves of a slab at s = a + (b - a) share(u), by Newton's method from the three lines known; false where
+/// that does not keep the order of curves.
 bool Sweep::curve_points(const Slab& slab, double s, double u, std::vector<double>& t) const {
   SweepLine line;
   if (!chord(s, line)) return false;
@@ -399,8 +401,8 @@ bool Sweep::integrate(double a, double b, const SweepLine& at_a, const SweepLine
   return true;
 }
 
-/// A slab too thin to look into is taken as on one of its lines; by how much the lengths of its pieces differ on the other is the
-/// error.
+/// A slab too thin to look into is taken as on one of its lines; by how much the lengths of its pieces differ on the
+/// other is the error.
 void Sweep::pass_over(double a, double b, const SweepLine& at_a, const SweepLine& at_b) {
   const SweepLine& longer = at_b.hi - at_b.lo > at_a.hi - at_a.lo ? at_b : at_a;
   if (!(longer.hi > longer.lo)) return;

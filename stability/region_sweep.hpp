@@ -1,5 +1,6 @@
-// The sweep of region.hpp: a convex polygon is cut into slabs between parallel lines; in a slab the curves that bound the modes keep
-// their order along the lines and are smooth. Integrals over slabs give areas, their pieces make up cells.
+// The sweep of region.hpp: a convex polygon is cut into slabs between parallel lines; in a slab the curves that bound
+// the modes keep their order along the lines and are smooth. Integrals over slabs give areas, their pieces make up
+// cells.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +33,8 @@ struct Slab {
 
 class Sweep {
  public:
-  /// `polygon` counter-clockwise in (s, t); its edges are those set in `modes`. Areas to `tolerance` relative to that of the
-  /// polygon. `core` [m]: the extent around the origin in which structure is looked for most closely.
+  /// `polygon` counter-clockwise in (s, t); its edges are those set in `modes`. Areas to `tolerance` relative to that
+  /// of the polygon. `core` [m]: the extent around the origin in which structure is looked for most closely.
   Sweep(const RegionModes& modes, std::vector<Eigen::Vector2d> polygon, double tolerance, double core);
   void run();
 

@@ -17,8 +17,8 @@ struct Square {
   friend bool operator<(const Square& a, const Square& b) { return a.distance() > b.distance(); }  // nearest first
 };
 
-/// Least distance at which the mode cannot be excluded, at most `limit`. Nearest squares first: when one that is small enough comes up,
-/// all that is nearer has been excluded.
+/// Least distance at which the mode cannot be excluded, at most `limit`. Nearest squares first: when one that is small
+/// enough comes up, all that is nearer has been excluded.
 double distance_to(const RegionModes& modes, const RegionMode& mode, double limit) {
   constexpr int most_squares = 2000;  // of one mode; typical: 1 to 300; beyond it the answer is safe but not sharp
   std::priority_queue<Square> open;

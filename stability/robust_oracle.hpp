@@ -2,11 +2,12 @@
 // disturbance wrench of a box W? Rigid body in the plane, Coulomb friction, body at rest.
 //
 // Guarantee: verdicts are decided for the doubles given. Floating-point evaluation knows a bound of its own
-// rounding error; what it cannot decide is decided in exact rational arithmetic (guard.hpp).
-// Safety factors: relative error at most 1e-9 (proved in doubles, or else evaluated in fractions and rounded once; over the catalogue
-// of docs/extremes.md 2e-10 at most, mostly 1e-14). Above 1 only where robust() holds, and not below 1 where it does. Gradients: error at
-// most 1e-9 of |gradient| + factor / lever over the catalogue, measured; at kinks a subgradient of one constraint. Never NaN: a value
-// beyond the doubles is inf. Least factors on lines are found by a search: exact at the ends, above 1 only where line() holds.
+// rounding error; what it cannot decide is decided in exact arithmetic (dyadic.hpp) (guard.hpp).
+// Safety factors: relative error at most 1e-9 (proved in doubles, or else evaluated in fractions and rounded once; over
+// the catalogue of docs/extremes.md 2e-10 at most, mostly 1e-14). Above 1 only where robust() holds, and not below 1
+// where it does. Gradients: error at most 1e-9 of |gradient| + factor / lever over the catalogue, measured; at kinks a
+// subgradient of one constraint. Never NaN: a value beyond the doubles is inf. Least factors on lines are found by a
+// search: exact at the ends, above 1 only where line() holds.
 #pragma once
 
 #include <Eigen/Core>
@@ -63,13 +64,13 @@ struct HalfPlane {
   double offset = 0;
 };
 
-/// RobustOracle(contacts, radius_of_gyration, box).robust(com) for contacts that are asked about once: without the work that this COM
-/// does not need.
+/// RobustOracle(contacts, radius_of_gyration, box).robust(com) for contacts that are asked about once: without the work
+/// that this COM does not need.
 bool robust(std::span<const Contact> contacts, double radius_of_gyration, const DisturbanceBox& box,
             const Eigen::Vector2d& com);
 
 /// All questions about one set of 1 to 3 contacts. Construction does the work that does not depend on the COM;
-/// member functions are const, cheap (rationals, where they are needed, are not), and may be called
+/// member functions are const, cheap (exact numbers, where they are needed, are not), and may be called
 /// from several threads.
 class RobustOracle {
  public:

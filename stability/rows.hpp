@@ -4,8 +4,8 @@
 //
 // Notation. r = x_i - x; N = (n, r x n); T = (t, r x t); C = n - sigma mu t the loaded cone edge of a slide
 // in direction sigma t (sigma = +1: mode U, sigma = -1: mode W); s = (C, r x C); R = (r_y, -r_x, 1), the twist of a
-// unit rotation about the contact; v = (p, 1, q) = -w; M = diag(1, 1, rho^2). Rows are scaled by positive factors (rho^2,
-// |n|^2, rho^2 + |r|^2) and by the denominator D, whose sign the caller applies.
+// unit rotation about the contact; v = (p, 1, q) = -w; M = diag(1, 1, rho^2). Rows are scaled by positive factors
+// (rho^2, |n|^2, rho^2 + |r|^2) and by the denominator D, whose sign the caller applies.
 //
 // Derivations.
 //   F...F   xi = M^-1 w, row N . xi; times rho^2:  -(rho^2 n, r x n).
@@ -127,8 +127,9 @@ Row<V> force_pair(const ContactTerms<V>& a, int edge_a, const ContactTerms<V>& b
   return {b.sz[edge_b] * ca.y - a.sz[edge_a] * cb.y, a.sz[edge_a] * cb.x - b.sz[edge_b] * ca.x, V(cross(ca, cb))};
 }
 
-/// Hands the rows of a mode to `sink`: first sink.denominator(D) where there is one, then sink.add(row), which returns true
-/// to stop early. sink.add_length(row) takes rows whose p and 1 slots are lengths (rounding-error class of guard.hpp).
+/// Hands the rows of a mode to `sink`: first sink.denominator(D) where there is one, then sink.add(row), which returns
+/// true to stop early. sink.add_length(row) takes rows whose p and 1 slots are lengths (rounding-error class of
+/// guard.hpp).
 template <class V, class Sink>
 void emit_rows(const Frame<V>& frame, const ModeSpec& spec, Sink& sink) {
   using K = Constant<V>;

@@ -1,5 +1,5 @@
-// Safety factors of points and straight lines (theory section 5): the facets' part in closed form, the modes' part by the
-// linear program of least_scale.hpp; along a line by certificates at the level of the best value found.
+// Safety factors of points and straight lines (theory section 5): the facets' part in closed form, the modes' part by
+// the linear program of least_scale.hpp; along a line by certificates at the level of the best value found.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,8 +29,8 @@ SafetyFactor zero(const Critical& critical) {
   return sigma;
 }
 
-/// The facets' part of sigma at one COM: the least of (z . g at p = q = 0) / (kappa |d/dp| + nu |d/dq|). In doubles where
-/// their error bounds leave safety_factor_accuracy, otherwise in fractions.
+/// The facets' part of sigma at one COM: the least of (z . g at p = q = 0) / (kappa |d/dp| + nu |d/dq|). In doubles
+/// where their error bounds leave safety_factor_accuracy, otherwise in fractions.
 class FacetFactors {
  public:
   FacetFactors(const Posture& posture, const Vector2d& com, const DisturbanceBox& box)
@@ -216,8 +216,9 @@ class LineMinimum {
   /// Modes that cannot lower a bound.
   std::uint32_t not_below(double best) const { return query_.scan(confirmed_level(best), false).excluded; }
 
-  /// Lowers `best` to the mode's least scale on the line, if that is lower. Where certificates at the level of the bound
-  /// stop, the scale is evaluated: lower than the bound, it is followed downhill to a local minimum, which becomes the bound.
+  /// Lowers `best` to the mode's least scale on the line, if that is lower. Where certificates at the level of the
+  /// bound stop, the scale is evaluated: lower than the bound, it is followed downhill to a local minimum, which
+  /// becomes the bound.
   void lower(const ModeSpec& spec, double& best, double& best_lambda) const {
     double step = 1e-9;  // in lambda, where doubles can neither certify nor find a lower value; doubled each time
     double lambda = 0;
@@ -285,7 +286,8 @@ class LineMinimum {
   LineQuery query_;
 };
 
-/// The search samples; the verdict is certified. A line that is not stable has no factor above 1, a stable one none below.
+/// The search samples; the verdict is certified. A line that is not stable has no factor above 1, a stable one none
+/// below.
 LineSafetyFactor made_consistent(const LineSafetyFactor& found, const RobustOracle& oracle, const Vector2d& from,
                                  const Vector2d& to) {
   constexpr double sampling_error = 1e-6;

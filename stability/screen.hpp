@@ -1,12 +1,14 @@
-// Shared certificates: a few tests that exclude most non-static modes of a stable posture at once, at a point or along a
-// straight line of COMs. What they leave undecided is decided mode by mode; they never exclude a mode that is feasible.
+// Shared certificates: a few tests that exclude most non-static modes of a stable posture at once, at a point or along
+// a straight line of COMs. What they leave undecided is decided mode by mode; they never exclude a mode that is
+// feasible.
 //
 // 1. All modes in which contact i alone is loaded (roll, both slides) have N_i . xi = 0 and N_l . xi >= 0. One covector
-//    Z = N_l + z N_i with Z . M^-1 v > 0 at the corners of W and Z . M^-1 s < 0 for both edges of cone i excludes them together
-//    (dual_certificate.hpp). In words: whatever the force at i, the body presses l into the ground. A single slide is also
-//    excluded by its own direction, Z = sigma T_i + z N_i, a roll by the sense of its rotation, and all contacts breaking by Z = N_l.
-// 2. Two slides at i and j move along the twist c only, xi = -(z . v / D) c: excluded where D keeps its sign and the direction along
-//    c, or the force at i or at j, has the wrong sign on all of W.
+//    Z = N_l + z N_i with Z . M^-1 v > 0 at the corners of W and Z . M^-1 s < 0 for both edges of cone i excludes them
+//    together (dual_certificate.hpp). In words: whatever the force at i, the body presses l into the ground. A single
+//    slide is also excluded by its own direction, Z = sigma T_i + z N_i, a roll by the sense of its rotation, and all
+//    contacts breaking by Z = N_l.
+// 2. Two slides at i and j move along the twist c only, xi = -(z . v / D) c: excluded where D keeps its sign and the
+//    direction along c, or the force at i or at j, has the wrong sign on all of W.
 #pragma once
 
 #include <algorithm>
@@ -74,8 +76,8 @@ class Screen {
 
   Reading normal_reading(int l) const { return {a_.at[l].n, a_.at[l].nz, b_.at[l].nz}; }
 
-  /// Z = A + z N_i presses under every force along the edges `first` to `last` of cone i: z at each end is the greatest that does,
-  /// slightly less; it then reads W best where W presses i.
+  /// Z = A + z N_i presses under every force along the edges `first` to `last` of cone i: z at each end is the greatest
+  /// that does, slightly less; it then reads W best where W presses i.
   bool proved(const Reading& reading, int i, int first, int last) const {
     double za, zb;
     if (!greatest_multiple(a_, reading.d, reading.moment_a, i, first, last, za)) return false;
@@ -99,8 +101,8 @@ class Screen {
     return true;
   }
 
-  /// The two conditions on Z of cover_conditions.hpp. Errors: Z has components of at most 1 + |z|, readings of the classes
-  /// "row" and "denominator" of guard.hpp.
+  /// The two conditions on Z of cover_conditions.hpp. Errors: Z has components of at most 1 + |z|, readings of the
+  /// classes "row" and "denominator" of guard.hpp.
   bool holds(const Reading& reading, int i, int first, int last, double za, double zb) const {
     const ContactTerms<double>&ta = a_.at[i], &tb = b_.at[i];
     const Vec2<double>& d = reading.d;
@@ -152,8 +154,8 @@ class Screen {
     return sign * row.one + box_.kappa * std::abs(row.p) + box_.nu * std::abs(row.q) < -error;
   }
 
-  /// One of the mode's rows (its direction along c, the force at i, the force at j) negative on all of W along the line, by
-  /// Bernstein coefficients: z is linear in lambda, M c too, their products quadratic.
+  /// One of the mode's rows (its direction along c, the force at i, the force at j) negative on all of W along the
+  /// line, by Bernstein coefficients: z is linear in lambda, M c too, their products quadratic.
   bool excludes_two_slides(const ModeSpec& spec) const {
     const int i = spec.i, j = spec.j, edge_i = loaded_edge(spec.sigma_i), edge_j = loaded_edge(spec.sigma_j);
     const Row<double> za = force_pair(a_.at[i], edge_i, a_.at[j], edge_j), ca = inertia_times_normal_cross(a_, i, j);

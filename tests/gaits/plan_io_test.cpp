@@ -250,7 +250,8 @@ std::string join(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// One fault put into the good plan: `from` of line `line` (from 1) becomes `to`; the message must stand at `at` in that line.
+/// One fault put into the good plan: `from` of line `line` (from 1) becomes `to`; the message must stand at `at` in
+/// that line.
 struct Slip {
   int line;
   std::string from, to;

@@ -1,5 +1,5 @@
-// Claims of [OR-P] and their errata, as far as they can be checked: shares of theory section 9, printed lemmas where they hold, and
-// counter-examples where they do not.
+// Claims of [OR-P] and their errata, as far as they can be checked: shares of theory section 9, printed lemmas where
+// they hold, and counter-examples where they do not.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -34,7 +34,8 @@ Share share_of_robust(const std::vector<Contact>& contacts, double rho) {
       const Eigen::Vector2d com(-0.2 + 1.4 * i / 56, -2 + 7.0 * k / 140);
       if (!oracle.equilibrium(com)) continue;
       ++equilibria;
-      // Two COMs of the grid lie on the boundary of R(W) of the symmetric vee; the published shares count the closed region.
+      // Two COMs of the grid lie on the boundary of R(W) of the symmetric vee; the published shares count the closed
+      // region.
       const double sigma = oracle.safety_factor(com).value;
       if (std::abs(sigma - 1) > boundary) CHECK(oracle.robust(com) == (sigma > 1));
       robust += sigma > 1 - boundary;
@@ -153,7 +154,8 @@ TEST_CASE("[OR-P, Lemma VI.1] is exact for kappa = 0 and upward normals", "[pape
 
 TEST_CASE("[OR-P, Lemma IV.3] holds under gravity once two signs are mended", "[paper]") {
   // With h_2 mended (an effective mass), phi = h_1 / h_2 and tau h_2 + h_1 (r_1 x C) = I_c h_0, where r_1 = -x. Then
-  // h_2 n_2 . a_2 = (r_2 x n_2) h_0 + (n_2 . C) h_1 + (n_2 . f) h_2 with r_2 x n_2 = t_2 . (x_2 - x): printed with x - x_2.
+  // h_2 n_2 . a_2 = (r_2 x n_2) h_0 + (n_2 . C) h_1 + (n_2 . f) h_2 with r_2 x n_2 = t_2 . (x_2 - x): printed with x -
+  // x_2.
   const std::uint64_t seed = 23;
   Sampler sampler(seed);
   int feasible = 0;

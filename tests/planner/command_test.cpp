@@ -190,7 +190,7 @@ TEST_CASE("Bad usage is one error and status 2", "[command]") {
                                 "check - -",
                                 "query a b",
                                 "simulate",
-                                "region scene.yaml"}) {
+                                "simulate scene.yaml"}) {
     const auto run = place.run(arguments);
     INFO("surefoot " << arguments << "\n" << run.err);
     CHECK(run.status == 2);

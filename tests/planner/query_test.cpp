@@ -52,6 +52,19 @@ TEST_CASE("A level stance that can only slip has the factor mu / kappa", "[query
   CHECK(parsed["feasible_modes"] == json::array());
 }
 
+TEST_CASE("How precisely the COM must be placed is told when asked for", "[query]") {
+  CHECK_FALSE(json::parse(answer(flat)).contains("com_tolerance"));
+  CHECK_FALSE(json::parse(answer(with("\"rho\"", "\"com_tolerance\": false, \"rho\""))).contains("com_tolerance"));
+  // The nearest boundary is tipping over the left foot: x - 0.17 y = 0.1.
+  const double distance = (0.5 - 0.17 * 0.4 - 0.1) / std::hypot(1, 0.17);
+  const json parsed = json::parse(answer(with("\"rho\"", "\"com_tolerance\": true, \"rho\"")));
+  CHECK(parsed["com_tolerance"].get<double>() <= distance * (1 + 1e-12));
+  CHECK(parsed["com_tolerance"].get<double>() == Approx(distance).epsilon(1e-3));
+  CHECK(fault(with("\"rho\"", "\"com_tolerance\": 1, \"rho\"")) == "com_tolerance: found 1, expected true or false");
+  CHECK(fault(with("\"rho\"", "\"com_to\": [0, 1], \"com_tolerance\": true, \"rho\"")) ==
+        "com_tolerance: a line has none, leave out com_to");
+}
+
 TEST_CASE("A level stance that tips first has the tipping factor, its witness and its gradient", "[query]") {
   // com (0.2, 0.4): 0.2 = s (0.17 * 0.4 + 0.1). d/dx: 1 / 0.168; d/dy: -0.2 * 0.17 / 0.168^2.
   const json parsed = json::parse(answer(with("[0.5,0.4]", "[0.2,0.4]")));
@@ -189,4 +202,34 @@ TEST_CASE("An empty input has no answers, and files that cannot be read are one 
     CHECK(run.out.empty());
     CHECK(run.one_error());
   }
+}
+
+TEST_CASE("The statistics tell which decisions were exact", "[query][program]") {
+  const surefoot::tests::Workplace place;
+  // Count and exact decisions of the row that begins with `what`.
+  const auto counts = [](const std::string& text, const std::string& what) {
+    const auto at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    std::istringstream numbers(text.substr(at + what.size()));
+    std::pair<long, long> read{-1, -1};
+    numbers >> read.first >> read.second;
+    return read;
+  };
+  const auto plain = place.run("query", flat + "\n");
+  const auto run = place.run("query --stats", flat + "\n");
+  CHECK(plain.err.empty());
+  CHECK(run.out == plain.out);
+  // One question: equilibrium, robust verdict, modes; no facet is close to the COM.
+  CHECK(counts(run.err, "facets of the equilibrium cone").first > 0);
+  CHECK(counts(run.err, "facets of the equilibrium cone").second == 0);
+  CHECK(counts(run.err, "modes at a COM").first > 0);
+  CHECK(counts(run.err, "modes on an interval of a line").first == 0);
+  // COM exactly on the facet of tipping over the left foot without disturbances: doubles cannot tell.
+  const auto on_facet = place.run("query --stats", R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}, )"
+                                                   R"({"p": [1,0], "n": [0,1], "mu": 0.5}], "com": [0,0.4], "rho": 0.2, )"
+                                                   R"("kappa": 0, "nu": 0})" "\n");
+  CHECK(counts(on_facet.err, "facets of the equilibrium cone").second > 0);
+  CHECK(json::parse(on_facet.out)["equilibrium"] == false);
+  CHECK(counts(place.run("query --stats", with("\"rho\"", "\"com_to\": [0.6, 0.4], \"rho\"") + "\n").err,
+               "modes on an interval of a line").first > 0);
 }

@@ -71,7 +71,7 @@ TEST_CASE("Cells carry their modes, polygons enclose their areas, boundaries are
   CHECK(picture.find("rho = 0.1 m") != std::string::npos);
 }
 
-TEST_CASE("Scenes show their first stance or the one asked for; unbounded regions say where they are clipped", "[region]") {
+TEST_CASE("Scenes show their first stance or the one asked for, unbounded regions say where they are clipped", "[region]") {
   const Workplace place;
   const std::string scene = SUREFOOT_MAPS "/vee.yaml";
   CHECK(place.run("region " + scene).out.find("legs 1, 2") != std::string::npos);

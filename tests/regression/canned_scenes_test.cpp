@@ -4,8 +4,8 @@
 // What is compared. Two runs on one machine must agree in every byte but time_s. A stored plan may come from another
 // compiler, C library or processor, whose last bits differ, so it is compared by what a robot would do: the same legs
 // on the same segments in the same order, lengths within `length_tolerance`, safety factors within `factor_tolerance`.
-// Stored is what the search found (--no-refine): refinement can make more of a last bit where many plans are equally safe,
-// so of the refined plan the order of the legs is compared, and that it is not less safe.
+// Stored is what the search found (--no-refine): refinement can make more of a last bit where many plans are equally
+// safe, so of the refined plan the order of the legs is compared, and that it is not less safe.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,6 @@
-// Where neighbours fail: extreme scales and shifts, tiny friction, contacts that nearly or exactly coincide, COMs at a hair's
-// breadth from a boundary. Expected verdicts come from exact rational arithmetic on the very doubles the oracle gets.
+// Where neighbours fail: extreme scales and shifts, tiny friction, contacts that nearly or exactly coincide, COMs at a
+// hair's breadth from a boundary. Expected verdicts come from exact rational arithmetic on the very doubles the oracle
+// gets.
 #include <catch2/catch.hpp>
 
 #include <cmath>

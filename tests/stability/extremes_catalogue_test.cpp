@@ -1,4 +1,5 @@
-// The catalogue of docs/extremes.md: every verdict, factor and gradient against exact arithmetic (tests/support/exact_posture.hpp).
+// The catalogue of docs/extremes.md: every verdict, factor and gradient against exact arithmetic
+// (tests/support/exact_posture.hpp).
 #include <catch2/catch.hpp>
 
 #include <cmath>

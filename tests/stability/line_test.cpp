@@ -71,8 +71,8 @@ struct LineCase {
   Eigen::Vector2d from, to;
 };
 
-// Both ends robustly stable, the inside not: found by random search, confirmed in rationals. The comment says the kind of
-// posture, the mode, and the least safety factor among 63 samples.
+// Both ends robustly stable, the inside not: found by random search, confirmed in rationals. The comment says the kind
+// of posture, the mode, and the least safety factor among 63 samples.
 const std::vector<LineCase> unstable_inside{
     // opposed, FRF, least 0.0000 at 0.438
     {{{{-0.5107421875, -0.0810546875}, {12, 4}, 1.2003755918579686}, {{0.6142578125, 0.2939453125}, {-3, -1},

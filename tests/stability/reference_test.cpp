@@ -41,7 +41,8 @@ TEST_CASE("On level ground both references give tipping and sliding limits compu
     CHECK(LpReference(sample).equilibrium_factor(sample.com) == Approx(expected).epsilon(1e-9));
     CHECK(DirectReference<double>(sample).equilibrium_factor(sample.com).value == Approx(expected).epsilon(1e-12));
     CHECK(DirectReference<Rational>(sample).equilibrium_factor(sample.com).value == Approx(expected).epsilon(1e-12));
-    // rho^2 = 0.04 < 0.4 * 0.6: lifting off by rotation alone needs q = rho^2 / 0.4 at least, on one side only, never FF.
+    // rho^2 = 0.04 < 0.4 * 0.6: lifting off by rotation alone needs q = rho^2 / 0.4 at least, on one side only, never
+    // FF.
     CHECK(LpReference(sample).safety_factor(sample.com).value == Approx(expected).epsilon(1e-9));
     CHECK(DirectReference<Rational>(sample).safety_factor(sample.com).value == Approx(expected).epsilon(1e-12));
   }
@@ -79,7 +80,8 @@ TEST_CASE("Torque throws a body of small inertia out of a vee, from the bound co
   const SamplePosture both = posture(vee, {0, 1.5}, 0.05, {0.1, 0.2});
   CHECK(LpReference(both).mode_margin(both.com, LpReference(both).structure().modes[0]) < 0);
   // COM at (0, 0) off to the left by d: N_1 = (1, 1, d - 0.5), N_2 = (-1, 1, d + 0.5) with r = (-+0.5 + d, 0)... at
-  // d = 1: (1, 1, 0.5), (-1, 1, 1.5): FF iff -1 - 0.5 q / rho^2 > 0 and -1 - 1.5 q / rho^2 > 0, that is q < -2 rho^2 (p = 0).
+  // d = 1: (1, 1, 0.5), (-1, 1, 1.5): FF iff -1 - 0.5 q / rho^2 > 0 and -1 - 1.5 q / rho^2 > 0, that is q < -2 rho^2 (p
+  // = 0).
   for (const double rho : {0.05, 0.2}) {
     const SamplePosture off = posture(vee, {-1, 0}, rho, {0, 1});
     const DirectReference<Rational> exact(off);

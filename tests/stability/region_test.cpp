@@ -1,5 +1,5 @@
-// Areas, cells and discs against the oracle on grids, closed forms and the shares of theory section 9. A grid's error: the cells whose
-// corners differ.
+// Areas, cells and discs against the oracle on grids, closed forms and the shares of theory section 9. A grid's error:
+// the cells whose corners differ.
 #include "stability/region.hpp"
 
 #include <algorithm>
@@ -195,8 +195,9 @@ TEST_CASE("Areas of random postures agree with grids of oracle calls", "[region]
 }
 
 TEST_CASE("One wrench is a box without extent: R(w) under gravity, and under a slanted force by turning the posture", "[region]") {
-  // Turning everything by phi turns gravity: the force (p, 1) with p = tan(phi) on the posture is plain gravity on the turned one, and
-  // areas do not change. The window of the slanted one is large enough to hold the strip's part we compare: three contacts in a bowl.
+  // Turning everything by phi turns gravity: the force (p, 1) with p = tan(phi) on the posture is plain gravity on the
+  // turned one, and areas do not change. The window of the slanted one is large enough to hold the strip's part we
+  // compare: three contacts in a bowl.
   const Region still = region(uneven(), 0.1, {{}, 0, 0});
   CHECK(still.window);
   const RobustOracle oracle(uneven(), 0.1, {0, 0});

@@ -1,5 +1,5 @@
-// The catalogue of stiff and extreme postures behind docs/extremes.md and its test: fixed, made by rule, in groups by what is
-// extreme about them. Boundaries are found by bisection on verdicts in exact arithmetic.
+// The catalogue of stiff and extreme postures behind docs/extremes.md and its test: fixed, made by rule, in groups by
+// what is extreme about them. Boundaries are found by bisection on verdicts in exact arithmetic.
 #pragma once
 
 #include <string>

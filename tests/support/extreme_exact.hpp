@@ -1,5 +1,5 @@
-// Safety factors and gradients in exact arithmetic, on the rows of exact_posture.hpp: every candidate of the linear program is tried,
-// gradients are differences over 2^-200 of the contacts' spread. For tests and docs/extremes.md only.
+// Safety factors and gradients in exact arithmetic, on the rows of exact_posture.hpp: every candidate of the linear
+// program is tried, gradients are differences over 2^-200 of the contacts' spread. For tests and docs/extremes.md only.
 #pragma once
 
 #include <optional>

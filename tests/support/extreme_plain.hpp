@@ -1,6 +1,6 @@
-// Theory sections 3 to 5 written down in doubles as they stand, without error bounds: what docs/extremes.md compares with.
-// For comparison only. Whether rays lie in a plane, normals are parallel or rows vanish is asked to 1e-12 of the terms, since
-// without such a tolerance level ground already fails; all else is asked as the formulas ask it.
+// Theory sections 3 to 5 written down in doubles as they stand, without error bounds: what docs/extremes.md compares
+// with. For comparison only. Whether rays lie in a plane, normals are parallel or rows vanish is asked to 1e-12 of the
+// terms, since without such a tolerance level ground already fails; all else is asked as the formulas ask it.
 #pragma once
 
 #include <string>

@@ -90,7 +90,8 @@ struct Unknowns {
   std::vector<std::array<int, 2>> force;
 };
 
-// Equations of motion:  a = sum f_i - (p, g),  rho beta = sum r_i x f_i - q;  g is 1, or a variable where the factor is sought.
+// Equations of motion:  a = sum f_i - (p, g),  rho beta = sum r_i x f_i - q;  g is 1, or a variable where the factor is
+// sought.
 void equations_of_motion(Program& program, const Unknowns& u, const std::vector<Frame>& frames, double rho) {
   std::vector<Term> x{{u.ax, 1}, {u.p, 1}}, y{{u.ay, 1}, {u.gravity, 1}}, moment{{u.beta, rho}, {u.q, 1}};
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -148,7 +149,8 @@ std::vector<Frame> frames_of(const SamplePosture& sample, const Eigen::Vector2d&
 
 enum class Aim { slack, gravity };
 
-// Aim::slack: greatest t with gravity up to `most_gravity` (1 fixed where fixed_gravity). Aim::gravity: greatest g with t = 0.
+// Aim::slack: greatest t with gravity up to `most_gravity` (1 fixed where fixed_gravity). Aim::gravity: greatest g with
+// t = 0.
 std::optional<double> solve_mode(const SamplePosture& sample, const Eigen::Vector2d& com, const ModeStructure& mode,
                                  Aim aim, bool fixed_gravity, double kappa, double nu) {
   Program program;

@@ -1,10 +1,11 @@
-// The contact problem as a linear program in its full unknowns, for tests only: accelerations a and alpha, the force f_i of
-// every contact (2 each), p and q; unit mass, inertia rho^2, wrench f = -(p, 1), tau = -q. Equations of motion, and
-// each contact's conditions from [OR-P, Table I] on its acceleration a_i and force f_i (row W mended: f^w = 0, f^u > 0).
+// The contact problem as a linear program in its full unknowns, for tests only: accelerations a and alpha, the force
+// f_i of every contact (2 each), p and q; unit mass, inertia rho^2, wrench f = -(p, 1), tau = -q. Equations of motion,
+// and each contact's conditions from [OR-P, Table I] on its acceleration a_i and force f_i (row W mended: f^w = 0, f^u
+// > 0).
 //
-// Strict conditions are asked as ">= t" with t <= 1 maximised: feasible iff t > 0. The optimum t (rows normalised) is returned:
-// simplex in doubles is trusted where |t| is well above its tolerance. Conventions of theory section 4 on rows
-// that vanish identically come from `Structure`, decided in rationals.
+// Strict conditions are asked as ">= t" with t <= 1 maximised: feasible iff t > 0. The optimum t (rows normalised) is
+// returned: simplex in doubles is trusted where |t| is well above its tolerance. Conventions of theory section 4 on
+// rows that vanish identically come from `Structure`, decided in rationals.
 #pragma once
 
 #include <vector>
@@ -32,7 +33,8 @@ class LpReference {
 
   /// Largest s such that the wrench s * corner can be supplied, least over corners.
   double equilibrium_factor(const Eigen::Vector2d& com) const;
-  /// Least s such that the mode is feasible with |p| <= s kappa, |q| <= s nu; `decided` is cleared where an LP was too close.
+  /// Least s such that the mode is feasible with |p| <= s kappa, |q| <= s nu; `decided` is cleared where an LP was too
+  /// close.
   double mode_factor(const Eigen::Vector2d& com, const ModeStructure& mode, bool& decided) const;
   struct Factor {
     double value = 0;

@@ -70,8 +70,8 @@ class Sampler {
   std::mt19937_64 random_;
 };
 
-/// All non-static modes of theory section 4 for `count` contacts: every contact breaks; one rolls or slides and the others
-/// break; two slide and the rest break. 4, 11 and 22 modes.
+/// All non-static modes of theory section 4 for `count` contacts: every contact breaks; one rolls or slides and the
+/// others break; two slide and the rest break. 4, 11 and 22 modes.
 std::vector<ContactMode> non_static_modes(int count);
 
 }  // namespace surefoot::testing

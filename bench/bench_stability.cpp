@@ -3,11 +3,15 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "bench/glpk_verdict.hpp"
+#include "gaits/plan_io.hpp"
+#include "gaits/rules.hpp"
+#include "gaits/scene.hpp"
 #include "stability/robust_oracle.hpp"
 #include "tests/support/sample_posture.hpp"
 
@@ -112,6 +116,40 @@ void straight_line_robust_ends(benchmark::State& state) {
   });
 }
 
+struct PlannedTransfer {
+  RobustOracle oracle;
+  Eigen::Vector2d from, to;
+};
+
+// Every transfer of the stored plans of the canned scenes that ask for robust stability.
+const std::vector<PlannedTransfer>& planned_transfers() {
+  static const std::vector<PlannedTransfer> transfers = [] {
+    namespace gaits = surefoot::gaits;
+    std::vector<PlannedTransfer> made;
+    for (const auto& entry : std::filesystem::directory_iterator(SUREFOOT_PLANS)) {
+      const gaits::Scene scene = gaits::load_scene(SUREFOOT_MAPS "/" + entry.path().stem().string() + ".yaml");
+      if (scene.criterion != gaits::Criterion::robust) continue;
+      const gaits::Plan plan = gaits::read_plan(entry.path().string());
+      for (std::size_t k = 0; k < plan.transfers.size(); ++k)
+        made.push_back({gaits::oracle_of(scene, gaits::feet_during(plan.stances[k], plan.transfers[k])),
+                        plan.stances[k].com, plan.stances[k + 1].com});
+    }
+    return made;
+  }();
+  return transfers;
+}
+
+void straight_line_of_plans(benchmark::State& state) {
+  const std::vector<PlannedTransfer>& given = planned_transfers();
+  std::size_t certified = 0;
+  for (const PlannedTransfer& t : given) certified += t.oracle.line(t.from, t.to).stable();
+  state.counters["certified"] = static_cast<double>(certified) / static_cast<double>(given.size());
+  run(state, [&](std::size_t k) {
+    const PlannedTransfer& t = given[k % given.size()];
+    return t.oracle.line(t.from, t.to);
+  });
+}
+
 void line_safety_factor(benchmark::State& state) {
   const Work& given = work(static_cast<int>(state.range(0)));
   const std::vector<RobustOracle> made = oracles(given);
@@ -138,6 +176,7 @@ BENCHMARK(same_contacts)->Arg(2)->Arg(3);
 BENCHMARK(safety_factor)->Arg(2)->Arg(3);
 BENCHMARK(straight_line)->Arg(2)->Arg(3);
 BENCHMARK(straight_line_robust_ends)->Arg(2)->Arg(3);
+BENCHMARK(straight_line_of_plans);
 BENCHMARK(line_safety_factor)->Arg(2)->Arg(3);
 BENCHMARK(glpk)->Arg(2)->Arg(3);
 
@@ -164,8 +203,9 @@ constexpr Target targets[]{
     {"robust verdict, new contacts, 2", "fresh_contacts/2", 80}, {"robust verdict, new contacts, 3", "fresh_contacts/3", 160},
     {"robust verdict, same contacts, 2", "same_contacts/2", 15}, {"robust verdict, same contacts, 3", "same_contacts/3", 30},
     {"safety factor and gradient, 2", "safety_factor/2", 300},   {"safety factor and gradient, 3", "safety_factor/3", 600},
-    {"straight line certified, 3", "straight_line/3", 600},
-    {"straight line, ends robust, 3", "straight_line_robust_ends/3", 600}};
+    {"straight line, random, 3", "straight_line/3", 600},
+    {"straight line, transfers of plans", "straight_line_of_plans", 600},
+    {"straight line, random robust ends, 3", "straight_line_robust_ends/3", 600}};
 
 void print_table(const std::map<std::string, double>& times) {
   std::printf("\n%-36s %12s %12s %8s\n", "work", "target [us]", "time [us]", "ratio");

@@ -28,6 +28,14 @@
 
 namespace surefoot::stability {
 
+/// False only in the copy of this folder that the benchmark of the guard's cost is measured against (bench/README.md):
+/// doubles are then taken at their word, and nothing is decided exactly.
+#ifdef SUREFOOT_UNGUARDED
+constexpr bool guarded = false;
+#else
+constexpr bool guarded = true;
+#endif
+
 constexpr double unit_roundoff = 0x1p-53;
 constexpr double row_error_factor = 512 * unit_roundoff;
 constexpr double underflow_slack = 1e-290;
@@ -49,6 +57,7 @@ class GuardScale {
         ordinary_(ordinary(a) && ordinary(rho2) && ordinary(box.kappa) && ordinary(box.nu)) {}
 
   Guard at(double radius) const {
+    if constexpr (!guarded) return {0, 0, 0};
     if (!ordinary_ || !ordinary(radius)) {
       constexpr double infinity = std::numeric_limits<double>::infinity();
       return {infinity, infinity, infinity};

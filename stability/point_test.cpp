@@ -48,12 +48,12 @@ void PointQuery::make_frame() {
   if (framed_) return;
   framed_ = true;
   frame_ = posture_.frame(com_);
-  guard_ = GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(greatest_offset(frame_));
+  if constexpr (guarded) guard_ = GuardScale(posture_.edge_bound(), posture_.rho2(), box_).at(greatest_offset(frame_));
 }
 
 const ModeSpec* PointQuery::any_feasible() {
   make_frame();
-  Screen<true> screen(frame_, frame_, box_, guard_);
+  Screen screen(frame_, box_, guard_);
   for (const ModeSpec& spec : posture_.modes())
     if (screen.excludes(spec))
       ++decisions.modes_by_screen;
@@ -74,13 +74,14 @@ bool PointQuery::equilibrium() const {
   // z has errors below facet_error (times lengths), the sum at most 8 u of the magnitudes, which facet_error bounds
   // too.
   const double lengths = posture_.spread() + std::abs(x) + std::abs(y);
-  const double error = 4 * posture_.facet_error() * (lengths * (1 + box_.kappa) + box_.nu) + underflow_slack;
+  const double error =
+      guarded ? 4 * posture_.facet_error() * (lengths * (1 + box_.kappa) + box_.nu) + underflow_slack : 0;
   for (const Facet& facet : posture_.facets()) {
     const Row<double>& z = facet.z;
     const double least = z.one + z.q * x - box_.kappa * std::abs(z.p - z.q * y) - box_.nu * std::abs(z.q);
     ++decisions.facets;
     if (least > error) continue;
-    if (least < -error || !inside_exactly(facet)) return false;
+    if (!guarded || least < -error || !inside_exactly(facet)) return false;
   }
   return true;
 }
@@ -102,7 +103,7 @@ bool PointQuery::feasible(const ModeSpec& spec) {
   ++decisions.modes_by_rows;
   if (sink.excluded()) return false;
   const Meeting meeting = sink.sign_certain() ? meets_box(sink.rows, box_) : Meeting::uncertain;
-  return meeting == Meeting::uncertain ? feasible_exactly(spec) : meeting == Meeting::yes;
+  return guarded && meeting == Meeting::uncertain ? feasible_exactly(spec) : meeting == Meeting::yes;
 }
 
 bool PointQuery::feasible_exactly(const ModeSpec& spec) {

@@ -19,6 +19,7 @@ int certain_sign(double value, double bound, Exact&& exact) {
   if (value > bound) return 1;
   if (value < -bound) return -1;
   if (bound == 0 && value == 0) return 0;
+  if constexpr (!guarded) return value > 0 ? 1 : value < 0 ? -1 : 0;
   ++decisions.signs_exactly;
   return sign_of(exact());
 }
@@ -59,8 +60,8 @@ int opening_sign(const Eigen::Vector2d& xi, const Eigen::Vector2d& xl, const Vec
   const double dx = xl.x() - xi.x(), dy = xl.y() - xi.y();
   const double left = dx * nl.y, right = dy * nl.x;
   // dx, dy: 1 u each, two products and a difference: 3 u of the magnitude.
-  const double bound = 4 * unit_roundoff * (std::abs(left) + std::abs(right));
-  const bool underflow = bound < underflow_slack && ((dx != 0 && given.y != 0) || (dy != 0 && given.x != 0));
+  const double bound = guarded ? 4 * unit_roundoff * (std::abs(left) + std::abs(right)) : 0;
+  const bool underflow = guarded && bound < underflow_slack && ((dx != 0 && given.y != 0) || (dy != 0 && given.x != 0));
   return certain_sign(left - right, underflow ? HUGE_VAL : bound, [&] {
     const Vec2<Dyadic> d = exactly(xl) - exactly(xi);
     return cross(d, exactly(given));
@@ -193,6 +194,7 @@ Row<Dyadic> Posture::exact_facet(const Facet& facet) const {
 
 /// The sign of z . ray c for z = ray a x ray b, where doubles cannot tell.
 int Posture::exact_side(int a, int b, int c) const {
+  if constexpr (!guarded) return 0;
   const auto same_direction = [&](int k, int l) {
     return k % 2 == l % 2 && friction_[k / 2] == friction_[l / 2] && same(given_normal_[k / 2], given_normal_[l / 2]);
   };
@@ -213,6 +215,7 @@ bool Posture::parallel(int a, int b) const {
   if (std::abs(z.q) > facet_error_ || std::abs(z.p) > facet_error_ * spread_ + underflow_slack ||
       std::abs(z.one) > facet_error_ * spread_ + underflow_slack)
     return false;
+  if constexpr (!guarded) return true;
   ++decisions.signs_exactly;
   const Row<Dyadic> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
   return exact.p.is_zero() && exact.one.is_zero() && exact.q.is_zero();
@@ -256,7 +259,7 @@ void Posture::find_facets() {
     for (int e : {edge_u, edge_w})
       rays_[2 * i + e] = ray_about<double>(offset<double>(0, i), normal_[i], friction_[i], e);
   // z: 9 u of 2 a^2 (spread); the product with the third ray: at most 3 terms, 8 u more, of 6 a^3 spread.
-  const double bound = 4 * facet_error_ * edge_bound_ * spread_ + underflow_slack;
+  const double bound = guarded ? 4 * facet_error_ * edge_bound_ * spread_ + underflow_slack : 0;
   unsigned positive = 0, negative = 0;  // pairs that have a ray on that side
   std::array<unsigned char, 6 * 6> coplanar{};  // of rays a < b: which third rays lie in their plane
   bool any_coplanar = false;

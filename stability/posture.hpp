@@ -18,6 +18,12 @@ struct Facet {
   signed char a, b, sign;
 };
 
+inline Vec2<Dyadic> exactly(const Vec2<double>& v) { return {v.x, v.y}; }
+inline Vec2<Dyadic> exactly(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
+
+/// The same direction and size.
+inline bool same(const Vec2<double>& a, const Vec2<double>& b) { return a.x == b.x && a.y == b.y; }
+
 class Posture {
  public:
   static constexpr int most_modes = 22;  // of three contacts: all break, 3 rolls, 6 slides, 12 pairs of slides
@@ -58,8 +64,9 @@ class Posture {
   Row<Dyadic> exact_facet(const Facet& facet) const;
 
  private:
-  template <int rays>
   void find_facets();
+  template <int rays>
+  void find_facets_of();
   int exact_side(int a, int b, int c) const;
   bool parallel(int a, int b) const;
   bool is_new_plane(int a, int b, unsigned coplanar) const;

@@ -75,10 +75,15 @@ LineVerdict RobustOracle::line(const Vector2d& from, const Vector2d& to) const {
 }
 
 std::vector<ContactMode> RobustOracle::line_feasible_modes(const Vector2d& from, const Vector2d& to) const {
-  LineQuery query(posture_, from, to, box_);
+  const LineQuery query(posture_, from, to, box_);
+  const LineScan scan = query.scan(1, false);
   std::vector<ContactMode> found;
-  for (const ModeSpec& spec : posture_.modes())
-    if (query.feasible(spec).outcome != LineOutcome::excluded) found.push_back(contact_mode(spec, posture_.contacts()));
+  for (std::size_t k = 0; k < posture_.modes().size(); ++k) {
+    const ModeSpec& spec = posture_.modes()[k];
+    if (scan.excluded >> k & 1) continue;
+    if (query.feasible(spec, scan.reached[k]).outcome == LineOutcome::excluded) continue;
+    found.push_back(contact_mode(spec, posture_.contacts()));
+  }
   return found;
 }
 

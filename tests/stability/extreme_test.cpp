@@ -175,3 +175,19 @@ TEST_CASE("A cone without interior supports nothing, a whole-space cone everythi
   CHECK(oracle_of(sample).equilibrium_half_planes().empty());
   CHECK(oracle_of(sample).line_equilibrium(sample.com, {-30, 50}));
 }
+
+TEST_CASE("Two slides loaded along one line through the COM's percussion axis are not taken for possible", "[degenerate]") {
+  // The loaded edges (2, 1) at the first foot and (1, 1/2) at the second lie on one line, so D = 0 wherever the COM is, and
+  // at this COM M c is parallel to that line too: the slide needs a wrench along it, p = 2, which W does not hold.
+  const std::vector<surefoot::stability::Contact> contacts{{{0.25, 0.6875}, {0, 1}, 2}, {{-0.875, 0.125}, {1, 0}, 0.5}};
+  const Eigen::Vector2d com(0.125, 0.375), from_com(contacts[0].position - com);
+  const double rho = 0.25;
+  // c = N_1 x N_2 with N = (n, r x n), in units where the first contact's normal is (0, 1) and the second's (1, 0).
+  const double n1z = from_com.x(), n2z = -(contacts[1].position - com).y();
+  const Eigen::Vector3d c = Eigen::Vector3d(0, 1, n1z).cross(Eigen::Vector3d(1, 0, n2z));
+  const Eigen::Vector3d mc(c.x(), c.y(), rho * rho * c.z());
+  const Eigen::Vector3d force(2, 1, from_com.x() * 1 - from_com.y() * 2);
+  REQUIRE(mc.cross(force).isZero(0));
+  const RobustOracle oracle(contacts, rho, {0.0625, 0.125});
+  CHECK(mode_names(oracle.feasible_modes(com)) == std::vector<std::string>{"RF"});
+}

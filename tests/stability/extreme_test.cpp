@@ -1,6 +1,7 @@
 // Where neighbours fail: extreme scales and shifts, tiny friction, contacts that nearly or exactly coincide, COMs at a
 // hair's breadth from a boundary. Expected verdicts come from exact rational arithmetic on the very doubles the oracle
 // gets.
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <cmath>

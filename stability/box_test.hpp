@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <type_traits>
 
@@ -88,6 +89,11 @@ Polygon<K> feasible_polygon(const RowList<K>& rows, const K& kappa, const K& nu)
   Polygon<K> polygon = box_polygon<K>(kappa, nu);
   for (int k = 0; k < rows.count && polygon.count > 0; ++k) polygon = clipped(polygon, rows.row[k]);
   return polygon;
+}
+
+/// sign * row . (p, 1, q) < -error on all of W.
+inline bool negative_on(const DisturbanceBox& box, const Row<double>& row, double sign, double error) {
+  return sign * row.one + box.kappa * std::abs(row.p) + box.nu * std::abs(row.q) < -error;
 }
 
 enum class Meeting { yes, no, uncertain };

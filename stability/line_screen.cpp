@@ -35,11 +35,6 @@ RowList<double> signed_rows(const RowList<double>& rows, double sign) {
   return result;
 }
 
-/// sign * row . (p, 1, q) < -error on all of W.
-bool negative_on(const DisturbanceBox& box, const Row<double>& row, double sign, double error) {
-  return sign * row.one + box.kappa * std::abs(row.p) + box.nu * std::abs(row.q) < -error;
-}
-
 bool has_denominator(const ModeSpec& spec) {
   return spec.kind == ModeSpec::Kind::slide || spec.kind == ModeSpec::Kind::two_slides;
 }

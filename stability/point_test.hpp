@@ -57,8 +57,7 @@ class PointSink {
  private:
   bool push(Row<double> row, double error) {
     if (negative_) row = -row;
-    const double greatest = row.one + box_.kappa * std::abs(row.p) + box_.nu * std::abs(row.q);
-    excluded_ = sign_certain_ && greatest < -error;
+    excluded_ = sign_certain_ && negative_on(box_, row, 1, error);
     rows.error[rows.count] = error;
     rows.row[rows.count++] = row;
     return excluded_ || !sign_certain_;

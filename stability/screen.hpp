@@ -7,7 +7,7 @@
 //    together (dual_certificate.hpp). In words: whatever the force at i, the body presses l into the ground. A single
 //    slide is also excluded by its own direction, Z = sigma T_i + z N_i, a roll by the sense of its rotation, and all
 //    contacts breaking by Z = N_l.
-// 2. Two slides at i and j move along the twist c only, xi = -(z . v / D) c: excluded where D keeps its sign and the
+// 2. Two slides at i and j move along the twist c only, xi = -(z . v / D) c: excluded where D is not zero and the
 //    direction along c, or the force at i or at j, has the wrong sign on all of W.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 
+#include "stability/box_test.hpp"
 #include "stability/cover_conditions.hpp"
 #include "stability/guard.hpp"
 #include "stability/rows.hpp"
@@ -98,8 +99,7 @@ class Screen {
 
   /// By its direction: alpha has the sign of -R . v whatever the force, which acts at x_i.
   bool excludes_roll(const ModeSpec& spec) const {
-    const Vec2<double>& r = frame_.at[spec.i].r;
-    return spec.sense != 0 && -spec.sense * r.x - box_.kappa * std::abs(r.y) - box_.nu > guard_.length;
+    return spec.sense != 0 && negative_on(box_, rotation_row(frame_.at[spec.i]), -spec.sense, guard_.length);
   }
 
   // ---- no loaded contact ----
@@ -116,10 +116,6 @@ class Screen {
 
   // ---- two loaded contacts ----
 
-  bool negative(const Row<double>& row, double sign, double error) const {
-    return sign * row.one + box_.kappa * std::abs(row.p) + box_.nu * std::abs(row.q) < -error;
-  }
-
   /// One of the mode's rows (its direction along c, the force at i, the force at j) is negative on all of W.
   bool excludes_two_slides(const ModeSpec& spec) const {
     const int i = spec.i, j = spec.j, edge_i = loaded_edge(spec.sigma_i), edge_j = loaded_edge(spec.sigma_j);
@@ -127,9 +123,9 @@ class Screen {
     const Row<double> mc = inertia_times_normal_cross(frame_, i, j);
     const double d = dot(z, mc), sign = d > 0 ? 1 : -1;
     if (!(std::abs(d) > guard_.denominator)) return false;
-    if (spec.sense != 0 && negative(z, -spec.sense * sign, guard_.length)) return true;
-    return negative(force_cross(frame_.at[j], edge_j, mc), sign, guard_.area) ||
-           negative(force_cross(frame_.at[i], edge_i, mc), -sign, guard_.area);  // s_j x M c, but M c x s_i
+    if (spec.sense != 0 && negative_on(box_, z, -spec.sense * sign, guard_.length)) return true;
+    return negative_on(box_, force_cross(frame_.at[j], edge_j, mc), sign, guard_.area) ||
+           negative_on(box_, force_cross(frame_.at[i], edge_i, mc), -sign, guard_.area);  // s_j x M c, but M c x s_i
   }
 
   const Frame<double>& frame_;

@@ -1,0 +1,51 @@
+// Proof that no 2-3-2 plan exists: necessary conditions of the rules (gaits/rules.hpp), decided on outer bounds.
+//
+// Method. The terrain is cut into pieces; a node is a pair of pieces that two feet may stand on at once, with an outer
+// polygon of the COMs that such a stance allows: reach of both, and R_SS(W) of every wrench cone that feet anywhere on
+// the pieces can have (infeasibility_bounds.hpp). A transfer places a foot on a third piece from a COM of one pair and
+// lifts one at a COM of the next; each of the two COMs must be within reach of all three pieces, keep the clearance and
+// see the foot that moves. Joining pairs wherever both COMs may exist gives a graph that contains every plan: if the goal
+// is not reached in it, there is no plan. Where it is reached, the pieces on the doubtful transfers of the shortest ways
+// (those that their middles do not confirm) are halved, until the goal is cut off, or a way remains that the middles
+// confirm all along, or the limits are reached (counterexample-guided refinement). Intervals of footholds and polygons of
+// COMs were chosen over boxes in all coordinates because every bound used is then exact but for the width of the pieces.
+//
+// Guarantee: what is returned is proven, for every plan that gaits::verify would accept: all bounds are drawn out by
+// `slack` (verifier slack and rounding together). Nothing returned means nothing: the relaxation forgets which leg is
+// which, swings, the COM's way between the transfers of one pair, and straight lines (only their ends count).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "gaits/scene.hpp"
+
+namespace surefoot::planner {
+
+struct ProofLimits {
+  std::uint64_t work = 400000;  ///< bounds evaluated (about 2 us each); the same scene gives the same answer
+  double finest = 1.0 / 512;    ///< least length of a piece, relative to reach_max
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+};
+
+/// What the plan fails at.
+enum class Obstacle {
+  start,    ///< no stance on the start feet is possible
+  goal,     ///< no stance with the COM in the goal is possible
+  barrier,  ///< stances are possible at both, but no chain of transfers joins them
+};
+
+struct Impossibility {
+  Obstacle obstacle = Obstacle::barrier;
+  std::optional<std::pair<double, double>> x, y;  ///< where [m]: between the feet that the start side and the goal reach
+  std::string reason;        ///< a sentence: place, then the rules that suffice to forbid it, with their numbers
+  std::uint64_t work = 0;    ///< bounds evaluated
+};
+
+/// Why no plan exists, if that can be proven within the limits; nothing otherwise. Const and re-entrant.
+std::optional<Impossibility> prove_infeasible(const gaits::Scene& scene, const ProofLimits& limits = {});
+
+}  // namespace surefoot::planner

@@ -28,7 +28,7 @@ std::optional<Impossibility> prove_infeasible(const gaits::Scene& scene, const P
   while (!graph.exhausted()) {
     const std::optional<int> least = graph.search();
     if (graph.exhausted()) break;
-    if (!least) return proof::explain(scene, graph, limits, work);
+    if (!least) return proof::explain(scene, pieces, limits, work);
     if (*least == 0 || !graph.refine(*least)) break;
   }
   return std::nullopt;

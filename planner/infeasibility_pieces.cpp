@@ -55,8 +55,10 @@ std::span<const terrain::Segment* const> Pieces::look_around(const Piece& piece)
 
 int Pieces::add_point(const terrain::Foothold& foothold) {
   const terrain::Segment& segment = scene_.terrain.segment(foothold.chain, foothold.segment);
-  Piece piece{&segment, foothold.s - segment.s_begin, foothold.s - segment.s_begin, foothold.position,
-              foothold.position};
+  const double at = foothold.s - segment.s_begin;
+  for (const int known : points_)
+    if (foot(known).piece.segment == &segment && foot(known).piece.begin == at) return known;
+  const Piece piece{&segment, at, at, foothold.position, foothold.position};
   const int id = add(piece, look_around(piece));
   cells_[id].middle.piece = piece;
   cells_[id].fixed = true;

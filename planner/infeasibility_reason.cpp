@@ -1,12 +1,232 @@
 #include "planner/infeasibility_reason.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
 namespace surefoot::planner::proof {
 
-Impossibility explain(const gaits::Scene&, Graph& graph, const ProofLimits&, std::uint64_t& work) {
-  Impossibility result;
-  result.work = work;
-  result.reason = "reached " + std::to_string(graph.reached().size());
-  return result;
+using Eigen::AlignedBox2d;
+using Eigen::Vector2d;
+using Interval = std::pair<double, double>;
+
+namespace {
+
+constexpr Rules only_reach{false, false, false, false, false, false};
+constexpr Rules with(bool balance, bool disturbance, bool sight, bool clearance) {
+  return {balance, disturbance, false, sight, clearance, false};
+}
+/// Fewest rules first; of as many, the one a reader expects.
+constexpr Rules candidates[] = {
+    only_reach,
+    with(true, false, false, false),
+    with(true, true, false, false),
+    with(false, false, true, false),
+    with(false, false, false, true),
+    {false, false, false, false, false, true},
+    with(false, false, true, true),
+    with(true, false, true, false),
+    with(true, true, true, false),
+    with(true, false, false, true),
+    with(true, true, false, true),
+    with(true, false, true, true),
+    with(true, true, true, true),
+    {true, true, false, true, true, true},
+};
+
+class Explainer {
+ public:
+  Explainer(const gaits::Scene& scene, Pieces& pieces, const ProofLimits& limits, std::uint64_t work)
+      : scene_(scene), pieces_(pieces), limits_(limits), full_(scene, {}) {
+    result_.work = work;
+    limits_.work = work + limits.work;
+  }
+
+  Impossibility run() {
+    Graph graph(full_, pieces_, false, limits_, result_.work);
+    if (!graph.has_start()) {
+      result_.obstacle = Obstacle::start;
+      place_at_start();
+    } else if (graph.goal_nodes().empty() && !graph.exhausted()) {
+      result_.obstacle = Obstacle::goal;
+      result_.x = scene_.goal.com_x;
+      result_.y = scene_.goal.com_y;
+    } else {
+      result_.obstacle = Obstacle::barrier;
+      graph.search();
+      place_between(graph);
+    }
+    result_.reason = place_words() + rule_words(sufficient());
+    return result_;
+  }
+
+ private:
+  bool impossible(const Rules& rules) {
+    const Bounds bounds(scene_, rules);
+    Graph graph(bounds, pieces_, false, limits_, result_.work);
+    switch (result_.obstacle) {
+      case Obstacle::start: return !graph.has_start();
+      case Obstacle::goal: return graph.goal_nodes().empty() && !graph.exhausted();
+      case Obstacle::barrier: return !graph.search() && !graph.exhausted();
+    }
+    return false;
+  }
+  Rules sufficient() {
+    for (const Rules& rules : candidates)
+      if (impossible(rules)) return rules;
+    return {};
+  }
+
+  void place_at_start();
+  void place_between(Graph& graph);
+  AlignedBox2d feet_of(const Graph& graph, const std::vector<int>& nodes, std::set<int>& stood_on) const;
+  std::string place_words() const;
+  std::string rule_words(const Rules& rules) const;
+  std::string gap_words() const;
+  std::string friction_words() const;
+
+  const gaits::Scene& scene_;
+  Pieces& pieces_;
+  ProofLimits limits_;
+  Bounds full_;
+  Impossibility result_;
+  double gap_ = 0;  // [m] least distance between feet of the two sides
+};
+
+// ---- place ------------------------------------------------------------------------------------------------------
+
+void Explainer::place_at_start() {
+  AlignedBox2d box;
+  for (const auto& foot : scene_.start.feet)
+    if (foot) box.extend(foot->position);
+  result_.x = {box.min().x(), box.max().x()};
+  result_.y = {box.min().y(), box.max().y()};
+}
+
+AlignedBox2d Explainer::feet_of(const Graph& graph, const std::vector<int>& nodes, std::set<int>& stood_on) const {
+  AlignedBox2d box;
+  for (const int id : nodes)
+    for (const int piece : {graph.node(id).first, graph.node(id).second}) {
+      box.extend(pieces_.foot(piece).piece.a);
+      box.extend(pieces_.foot(piece).piece.b);
+      stood_on.insert(piece);
+    }
+  return box;
+}
+
+double distance_between(const Piece& p, const Piece& q) {
+  const auto from = [](const Vector2d& point, const Piece& piece) {
+    const Vector2d along = piece.b - piece.a;
+    const double squared = along.squaredNorm();
+    const double part = squared > 0 ? std::clamp((point - piece.a).dot(along) / squared, 0.0, 1.0) : 0.0;
+    return (point - piece.a - part * along).norm();
+  };
+  return std::min({from(p.a, q), from(p.b, q), from(q.a, p), from(q.b, p)});  // pieces do not cross
+}
+
+/// What lies between two intervals; where they overlap, the overlap.
+Interval between(double a_low, double a_high, double b_low, double b_high) {
+  const double low = std::min(a_high, b_high), high = std::max(a_low, b_low);
+  return std::minmax(low, high);
+}
+
+void Explainer::place_between(Graph& graph) {
+  std::set<int> start_feet, goal_feet;
+  const AlignedBox2d start = feet_of(graph, graph.reached(), start_feet);
+  const AlignedBox2d goal = feet_of(graph, graph.reached_from_goal(), goal_feet);
+  if (start.isEmpty() || goal.isEmpty()) return;
+  result_.x = between(start.min().x(), start.max().x(), goal.min().x(), goal.max().x());
+  const bool apart = start.max().y() <= goal.min().y() || goal.max().y() <= start.min().y();
+  if (apart || !scene_.goal.com_x) result_.y = between(start.min().y(), start.max().y(), goal.min().y(), goal.max().y());
+  constexpr std::size_t few = 2000;  // pairs of feet are looked at
+  if (start_feet.size() > few || goal_feet.size() > few) return;
+  gap_ = std::numeric_limits<double>::infinity();
+  for (const int a : start_feet)
+    for (const int b : goal_feet) gap_ = std::min(gap_, distance_between(pieces_.foot(a).piece, pieces_.foot(b).piece));
+}
+
+// ---- words ------------------------------------------------------------------------------------------------------
+
+std::string number(double value) {
+  return fmt::format("{:.4g}", std::abs(value) < 5e-7 ? 0.0 : value);
+}
+
+std::string interval_words(const char* axis, const Interval& interval) {
+  const std::string from = number(interval.first), to = number(interval.second);
+  return from == to ? fmt::format("at {} = {}", axis, from) : fmt::format("between {} = {} and {}", axis, from, to);
+}
+
+std::string Explainer::place_words() const {
+  std::string words;
+  if (result_.obstacle == Obstacle::start) words = "at the start, ";
+  if (result_.obstacle == Obstacle::goal) words = "in the goal, ";
+  const bool by_height = result_.y && (!result_.x || !scene_.goal.com_x);
+  const bool flat = result_.y && number(result_.y->first) == number(result_.y->second);
+  if (by_height) return words + interval_words("y", *result_.y) + ": ";
+  if (!result_.x) return words.empty() ? "" : words.substr(0, words.size() - 2) + ": ";
+  words += interval_words("x", *result_.x);
+  if (result_.y && !flat) words += " and " + interval_words("y", *result_.y);
+  return words + ": ";
+}
+
+/// Friction of the footholds at the place.
+std::string Explainer::friction_words() const {
+  const double reach = result_.obstacle == Obstacle::goal ? scene_.robot.reach_max : 0;
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  const auto meets = [&](const std::optional<Interval>& interval, double a, double b) {
+    return !interval || (std::max(a, b) >= interval->first - reach && std::min(a, b) <= interval->second + reach);
+  };
+  for (const terrain::Segment& segment : scene_.terrain.segments()) {
+    if (!segment.surface.foothold || !meets(result_.x, segment.a.x(), segment.b.x()) ||
+        !meets(result_.y, segment.a.y(), segment.b.y()))
+      continue;
+    least = std::min(least, segment.surface.friction);
+    greatest = std::max(greatest, segment.surface.friction);
+  }
+  if (least > greatest) return "";
+  if (least == greatest) return fmt::format(" at friction {}", number(least));
+  return fmt::format(" at friction {} to {}", number(least), number(greatest));
+}
+
+std::string Explainer::gap_words() const {
+  const std::string reach = number(scene_.robot.reach_max);
+  switch (result_.obstacle) {
+    case Obstacle::start: return fmt::format("no COM is within reach {} of two start feet", reach);
+    case Obstacle::goal: return fmt::format("no two footholds are within reach {} of a COM there", reach);
+    case Obstacle::barrier: break;
+  }
+  if (gap_ > 2 * scene_.robot.reach_max && std::isfinite(gap_))
+    return fmt::format("no support pair within reach {} spans the gap of {} m", reach, number(gap_));
+  return fmt::format("no transfer with three feet within reach {} of its COMs spans the gap", reach);
+}
+
+std::string Explainer::rule_words(const Rules& rules) const {
+  if (!rules.balance && !rules.sight && !rules.clearance && !rules.least_reach) return gap_words();
+  const gaits::Robot& robot = scene_.robot;
+  std::vector<std::string> demands;
+  if (rules.balance && rules.disturbance)
+    demands.push_back(fmt::format("balances every disturbance (kappa {}, nu {} m){}", number(scene_.disturbance.kappa),
+                                  number(scene_.disturbance.nu), friction_words()));
+  if (rules.balance && !rules.disturbance) demands.push_back("balances the weight" + friction_words());
+  if (rules.modes) demands.push_back("excludes every contact mode but rest");
+  if (rules.sight) demands.push_back("sees the foot that is placed or lifted");
+  if (rules.clearance && robot.clearance > 0)
+    demands.push_back(fmt::format("keeps the clearance {}", number(robot.clearance)));
+  if (rules.least_reach && robot.reach_min > 0)
+    demands.push_back(fmt::format("keeps the feet {} m away", number(robot.reach_min)));
+  const char* of = result_.obstacle == Obstacle::start   ? "two start feet"
+                   : result_.obstacle == Obstacle::goal  ? "two feet"
+                                                         : "the feet of a transfer";
+  return fmt::format("no COM within reach {} of {} {}", number(robot.reach_max), of, fmt::join(demands, " and "));
+}
+
+}  // namespace
+
+Impossibility explain(const gaits::Scene& scene, Pieces& pieces, const ProofLimits& limits, std::uint64_t work) {
+  return Explainer(scene, pieces, limits, work).run();
 }
 
 }  // namespace surefoot::planner::proof

@@ -1,5 +1,6 @@
-// Place and reason of an impossibility that is proven already: where the reach of start and goal end, and which rules
-// alone suffice to keep them apart (the proof is repeated with fewer rules on the same pieces, fewest first).
+// Place and reason of an impossibility that is proven already: where the feet that the start and those that the goal can
+// reach end, and which rules alone suffice to keep them apart (the proof is repeated with fewer rules on the same
+// pieces, fewest first; what is named is therefore proven too).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,8 @@
 
 namespace surefoot::planner::proof {
 
-/// `graph` has been searched in vain. What it costs is added to `work`, at most as much again as the limit.
-Impossibility explain(const gaits::Scene& scene, Graph& graph, const ProofLimits& limits, std::uint64_t& work);
+/// For pieces on which the goal cannot be reached. Spends at most as much work again as the limit; where that is not
+/// enough, the reason is less precise.
+Impossibility explain(const gaits::Scene& scene, Pieces& pieces, const ProofLimits& limits, std::uint64_t work);
 
 }  // namespace surefoot::planner::proof

@@ -26,7 +26,7 @@
 namespace surefoot::planner {
 
 struct ProofLimits {
-  std::uint64_t work = 400000;  ///< bounds evaluated (about 2 us each); the same scene gives the same answer
+  std::uint64_t work = 600000;  ///< bounds evaluated, 0.5 to 1 us each; for the reason of what is proven, up to twice that
   double finest = 1.0 / 512;    ///< least length of a piece, relative to reach_max
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
@@ -46,6 +46,7 @@ struct Impossibility {
 };
 
 /// Why no plan exists, if that can be proven within the limits; nothing otherwise. Const and re-entrant.
+/// Without a deadline the answer depends on the scene and the limits alone.
 std::optional<Impossibility> prove_infeasible(const gaits::Scene& scene, const ProofLimits& limits = {});
 
 }  // namespace surefoot::planner

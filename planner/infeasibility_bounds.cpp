@@ -17,8 +17,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 double distance(const Vector2d& point, const Piece& piece) {
   const Vector2d along = piece.b - piece.a;
   const double squared = along.squaredNorm();
@@ -50,128 +48,7 @@ Piece middle_of(const Piece& piece) {
   return piece_of(*piece.segment, middle, middle);
 }
 
-void Convex::clip(const Vector2d& direction, const Vector2d& origin, double bound) {
-  std::array<double, most> height;
-  bool all_in = true;
-  for (int i = 0; i < count_; ++i) {
-    height[i] = direction.dot(at_[i] - origin) - bound;
-    all_in &= height[i] <= 0;
-  }
-  if (all_in || count_ + 1 >= most) return;  // too many corners: left as it is, which contains the part wanted
-  std::array<Vector2d, most> kept;
-  int n = 0;
-  for (int i = 0; i < count_; ++i) {
-    const int next = i + 1 < count_ ? i + 1 : 0;
-    if (height[i] <= 0) kept[n++] = at_[i];
-    if ((height[i] < 0 && height[next] > 0) || (height[i] > 0 && height[next] < 0))
-      kept[n++] = at_[i] + (at_[next] - at_[i]) * (height[i] / (height[i] - height[next]));
-  }
-  std::copy_n(kept.begin(), n, at_.begin());
-  count_ = n;
-}
-
-Vector2d Convex::centre() const {
-  Vector2d sum = Vector2d::Zero();
-  for (const Vector2d& corner : corners()) sum += corner - at_[0];
-  return at_[0] + sum / count_;
-}
-
-// ---- balance ----------------------------------------------------------------------------------------------------
-
 namespace {
-
-/// Below this sine two cone edges count as parallel: what they span is then bounded without dividing by it.
-constexpr double parallel_sine = 1e-4;
-/// Far above the rounding of all that is divided by at least parallel_sine (1e-12), far below what matters.
-constexpr double relative_margin = 1e-7;
-
-struct Edge {
-  Vector2d direction;
-  double norm = 0, lo = 0, hi = 0;  // moments of `direction` about the origin over the piece
-};
-
-class MomentRange {
- public:
-  MomentRange(const Piece& first, const Piece& second, const Vector2d& force, const Vector2d& about, double rounding)
-      : force_(force), rounding_(rounding) {
-    lever_ = std::max({(first.a - about).norm(), (first.b - about).norm(), (second.a - about).norm(),
-                       (second.b - about).norm()}) + rounding;
-    add_edges(first, about, 0);
-    add_edges(second, about, 2);
-    for (int k = 0; k < 4; ++k)
-      for (int l = k + 1; l < 4; ++l) combine(edges_[k], edges_[l]);
-    if (result_.possible) squeeze(first, second);
-  }
-  const Moments& result() const { return result_; }
-
- private:
-  void add_edges(const Piece& piece, const Vector2d& about, int at) {
-    const Vector2d n = piece.segment->normal, t(n.y(), -n.x());
-    const double mu = piece.segment->surface.friction;
-    for (const double sign : {1.0, -1.0}) {
-      Edge edge{n + sign * mu * t, 0, 0, 0};
-      edge.norm = edge.direction.norm();
-      const double at_a = cross(piece.a - about, edge.direction), at_b = cross(piece.b - about, edge.direction);
-      edge.lo = std::min(at_a, at_b) - rounding_ * edge.norm;
-      edge.hi = std::max(at_a, at_b) + rounding_ * edge.norm;
-      edges_[at++] = edge;
-    }
-  }
-
-  void include(double lo, double hi, double size) {
-    const double margin = relative_margin * lever_ * size;
-    if (!result_.possible) result_ = {true, infinity, -infinity};
-    result_.lo = std::min(result_.lo, lo - margin);
-    result_.hi = std::max(result_.hi, hi + margin);
-  }
-
-  /// force = alpha k + beta l with alpha, beta >= 0.
-  void combine(const Edge& k, const Edge& l) {
-    const double turn = cross(k.direction, l.direction), size = force_.norm();
-    if (std::abs(turn) < parallel_sine * k.norm * l.norm) return combine_parallel(k, l, size);
-    double alpha = cross(force_, l.direction) / turn, beta = cross(k.direction, force_) / turn;
-    if (alpha < -relative_margin * size / k.norm || beta < -relative_margin * size / l.norm) return;
-    alpha = std::max(alpha, 0.0), beta = std::max(beta, 0.0);
-    include(alpha * k.lo + beta * l.lo, alpha * k.hi + beta * l.hi, size + alpha * k.norm + beta * l.norm);
-  }
-
-  /// Nearly one direction: only a force along it, shared in some way. Nearly opposite: any moment, to be safe.
-  void combine_parallel(const Edge& k, const Edge& l, double size) {
-    if (k.direction.dot(l.direction) < 0) return include(-infinity, infinity, 0);
-    if (k.direction.dot(force_) < 0 || std::abs(cross(k.direction, force_)) > 10 * parallel_sine * k.norm * size) return;
-    include(size * std::min(k.lo / k.norm, l.lo / l.norm), size * std::max(k.hi / k.norm, l.hi / l.norm), size);
-  }
-
-  bool in_cone(const Vector2d& d, int at) const {
-    const Edge &right = edges_[at], &left = edges_[at + 1];
-    const double tolerance = 1e-6 * d.norm();
-    return cross(right.direction, d) >= -tolerance * right.norm && cross(d, left.direction) >= -tolerance * left.norm &&
-           d.dot(right.direction + left.direction) > 0;
-  }
-
-  /// Forces g at the first foot and -g at the second, of any size: their moment is (first - second) x g. The extreme
-  /// directions of g are edges of one cone within the other's opposite.
-  void squeeze(const Piece& first, const Piece& second) {
-    const auto try_direction = [&](const Vector2d& g) {
-      const double tolerance = (relative_margin * lever_ + 2 * rounding_) * g.norm();
-      for (const Vector2d& at : {first.a, first.b})
-        for (const Vector2d& opposite : {second.a, second.b}) {
-          const double moment = cross(at - opposite, g);
-          if (moment > -tolerance) result_.hi = infinity;
-          if (moment < tolerance) result_.lo = -infinity;
-        }
-    };
-    for (const int k : {0, 1})
-      if (in_cone(-edges_[k].direction, 2)) try_direction(edges_[k].direction);
-    for (const int k : {2, 3})
-      if (in_cone(-edges_[k].direction, 0)) try_direction(-edges_[k].direction);
-  }
-
-  Vector2d force_;
-  double rounding_, lever_ = 0;
-  std::array<Edge, 4> edges_;  // right and left edge of the first cone, of the second
-  Moments result_;
-};
 
 /// Directions in which discs are bounded.
 constexpr int directions = 16;
@@ -189,11 +66,6 @@ const std::array<Vector2d, directions>& unit_directions() {
 
 }  // namespace
 
-Moments moments_of(const Piece& first, const Piece& second, const Vector2d& force, const Vector2d& about,
-                   double rounding) {
-  return MomentRange(first, second, force, about, rounding).result();
-}
-
 // ---- sets of COMs -----------------------------------------------------------------------------------------------
 
 Bounds::Bounds(const gaits::Scene& scene, const Rules& rules) : scene_(scene), rules_(rules), box_(scene.disturbance) {
@@ -204,7 +76,7 @@ Bounds::Bounds(const gaits::Scene& scene, const Rules& rules) : scene_(scene), r
   if (!asks_box || !rules.disturbance) box_ = {0, 0};  // of other criteria only balance under gravity is taken for sure
 }
 
-Convex Bounds::stance(const Piece& first, const Piece& second) const {
+Convex Bounds::reachable(const Piece& first, const Piece& second) const {
   Convex coms;
   const double bound = reach() + slack_;
   const Vector2d middle = (first.a + first.b) / 2;
@@ -213,17 +85,24 @@ Convex Bounds::stance(const Piece& first, const Piece& second) const {
     coms.add(middle + Vector2d(sx * half, sy * half));
   clip_to_reach(coms, first);
   clip_to_reach(coms, second);
-  if (!rules_.balance || coms.empty()) return coms;
+  return coms;
+}
+
+void Bounds::clip_to_balance(Convex& coms, const Piece& first, const Piece& second) const {
+  if (!rules_.balance || coms.empty()) return;
+  const Vector2d middle = (first.a + first.b) / 2;
   for (const double p : {-box_.kappa, box_.kappa}) {
     const Moments moments = moments_of(first, second, {p, 1}, middle, slack_);
-    if (!moments.possible) return {};
+    if (!moments.possible) {
+      coms = {};
+      return;
+    }
     const Vector2d normal(1, -p);
     const double margin = slack_ * (1 + std::abs(p));
     if (moments.hi < infinity) coms.clip(normal, middle, moments.hi - box_.nu + margin);
     if (moments.lo > -infinity) coms.clip(-normal, middle, -moments.lo - box_.nu + margin);
-    if (coms.empty() || box_.kappa == 0) break;
+    if (coms.empty() || box_.kappa == 0) return;
   }
-  return coms;
 }
 
 void Bounds::clip_to_point(Convex& coms, const Vector2d& point) const {
@@ -322,12 +201,6 @@ bool Bounds::stable_at(const Vector2d& com, const Demand& demand) const {
 
 namespace {
 
-double radius_about(const Convex& coms, const Vector2d& centre) {
-  double squared = 0;
-  for (const Vector2d& corner : coms.corners()) squared = std::max(squared, (corner - centre).squaredNorm());
-  return std::sqrt(squared);
-}
-
 /// Both halves of a polygon, cut across its longer side.
 std::pair<Convex, Convex> halves(const Convex& coms, const Vector2d& centre) {
   Vector2d low = centre, high = centre;
@@ -339,41 +212,54 @@ std::pair<Convex, Convex> halves(const Convex& coms, const Vector2d& centre) {
   return parts;
 }
 
-constexpr int most_parts = 256;  ///< of one polygon of COMs; then it counts as not excluded
+constexpr std::uint64_t most_polygons = 256;  ///< of one demand; what is left then counts as not excluded
 
 }  // namespace
 
-bool Bounds::may_hold(const Convex& coms, const Demand& demand, double finest) const {
-  if (coms.empty()) return false;
+unsigned Bounds::may_hold(const Convex& coms, const Demand& demand, const Region& region, double finest,
+                          std::uint64_t& work) const {
+  unsigned found = 0, sought = (1u << region.parts()) - 1;
+  if (coms.empty()) return 0;
   std::vector<Convex> open{coms};
-  for (int parts = 0; !open.empty(); ++parts) {
+  const std::uint64_t limit = work + most_polygons;
+  while (!open.empty() && sought != 0) {
+    if (++work > limit) return found | sought;
     const Convex part = open.back();
     open.pop_back();
     const Vector2d centre = part.centre();
-    const double radius = radius_about(part, centre) + slack_;
-    if (excluded(part, centre, radius, demand)) continue;
-    if (radius <= finest || parts >= most_parts || met_at(centre, demand)) return true;
+    const double radius = part.radius_about(centre) + slack_;
+    unsigned here = region.parts_in(part.box(), slack_) & sought;
+    if (here == 0 || excluded(part, centre, radius, demand)) continue;
+    const unsigned met = radius <= finest ? here
+                         : met_at(centre, demand) ? region.parts_in({centre, centre}, 0) & here : 0;
+    found |= met;
+    sought &= ~met;
+    if ((here & ~met) == 0) continue;
     auto [first, second] = halves(part, centre);
     if (!first.empty()) open.push_back(std::move(first));
     if (!second.empty()) open.push_back(std::move(second));
   }
-  return false;
+  return found;
 }
 
-bool Bounds::does_hold(const Convex& coms, const Demand& demand) const {
-  constexpr int tries = 24;
-  if (coms.empty()) return false;
+unsigned Bounds::does_hold(const Convex& coms, const Demand& demand, const Region& region, unsigned parts,
+                           std::uint64_t& work) const {
+  constexpr std::size_t tries = 24;
+  if (coms.empty()) return 0;
+  unsigned found = 0;
   std::vector<Convex> open{coms};
-  for (std::size_t next = 0; next < open.size() && next < tries; ++next) {  // widest first
+  for (std::size_t next = 0; next < open.size() && next < tries && found != parts; ++next) {  // widest first
+    ++work;
     const Convex part = open[next];
     const Vector2d centre = part.centre();
-    if (excluded(part, centre, radius_about(part, centre) + slack_, demand)) continue;
-    if (met_at(centre, demand) && stable_at(centre, demand)) return true;
+    if ((region.parts_in(part.box(), slack_) & parts & ~found) == 0) continue;
+    if (excluded(part, centre, part.radius_about(centre) + slack_, demand)) continue;
+    if (met_at(centre, demand) && stable_at(centre, demand)) found |= region.parts_in({centre, centre}, 0) & parts;
     auto [first, second] = halves(part, centre);
     if (!first.empty()) open.push_back(first);
     if (!second.empty()) open.push_back(second);
   }
-  return false;
+  return found;
 }
 
 }  // namespace surefoot::planner::proof

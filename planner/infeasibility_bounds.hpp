@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "gaits/scene.hpp"
+#include "planner/infeasibility_convex.hpp"
+#include "planner/infeasibility_region.hpp"
 
 namespace surefoot::planner::proof {
 
@@ -39,22 +41,6 @@ struct Piece {
 };
 Piece piece_of(const terrain::Segment& segment, double begin, double end);
 Piece middle_of(const Piece& piece);
-
-/// A convex polygon of COMs, counter-clockwise [m].
-class Convex {
- public:
-  static constexpr int most = 48;
-  bool empty() const { return count_ == 0; }
-  std::span<const Eigen::Vector2d> corners() const { return {at_.data(), static_cast<std::size_t>(count_)}; }
-  void add(const Eigen::Vector2d& corner) { at_[static_cast<std::size_t>(count_++)] = corner; }
-  /// Keeps what has direction . (x - origin) <= bound.
-  void clip(const Eigen::Vector2d& direction, const Eigen::Vector2d& origin, double bound);
-  Eigen::Vector2d centre() const;
-
- private:
-  std::array<Eigen::Vector2d, most> at_;
-  int count_ = 0;
-};
 
 /// Moments [m] about a point that feet on two pieces can supply with a given force.
 struct Moments {
@@ -85,21 +71,26 @@ class Bounds {
   double reach() const { return scene_.robot.reach_max; }
   const gaits::Scene& scene() const { return scene_; }
 
-  /// COMs within reach of both pieces at which feet on them may balance W. Empty: none.
-  Convex stance(const Piece& first, const Piece& second) const;
+  /// COMs within reach of both pieces. Empty: none.
+  Convex reachable(const Piece& first, const Piece& second) const;
+  /// Keeps what feet on the pieces may balance W at.
+  void clip_to_balance(Convex& coms, const Piece& first, const Piece& second) const;
   void clip_to_point(Convex& coms, const Eigen::Vector2d& point) const;
   void clip_to_reach(Convex& coms, const Piece& piece) const;
   void clip_to_sight(Convex& coms, const Piece& piece) const;
   void clip_to_goal(Convex& coms) const;
 
-  /// Whether some COM of the polygon may meet the demand with the first two feet as stance: false only if none does,
-  /// for any footholds on the pieces. Decides by halving the polygon down to `finest` [m].
-  bool may_hold(const Convex& coms, const Demand& demand, double finest) const;
-  /// Whether a COM of the polygon was found that meets the demand (feet are points) and is stable.
-  bool does_hold(const Convex& coms, const Demand& demand) const;
+  /// The parts of the region in which some COM of the polygon may meet the demand with the first two feet as stance
+  /// (bits); for a part that is not named there is none, whatever footholds on the pieces are taken. Decides by halving
+  /// the polygon down to `finest` [m]; adds the number of polygons to `work`.
+  unsigned may_hold(const Convex& coms, const Demand& demand, const Region& region, double finest,
+                    std::uint64_t& work) const;
+  /// Those of the parts in which a COM was found that meets the demand (feet are points) and is stable.
+  unsigned does_hold(const Convex& coms, const Demand& demand, const Region& region, unsigned parts,
+                     std::uint64_t& work) const;
+  Field field() const { return {scene_, rules_.clearance, slack_}; }
 
  private:
-  enum class Verdict { none, some, unknown };
   bool excluded(const Convex& coms, const Eigen::Vector2d& centre, double radius, const Demand& demand) const;
   bool met_at(const Eigen::Vector2d& com, const Demand& demand) const;
   bool stable_at(const Eigen::Vector2d& com, const Demand& demand) const;

@@ -19,12 +19,6 @@ std::uint64_t key_of(int a, int b, int c = 0) {
          static_cast<std::uint64_t>(c);
 }
 
-AlignedBox2d box_of(const Convex& coms) {
-  AlignedBox2d box;
-  for (const Vector2d& corner : coms.corners()) box.extend(corner);
-  return box;
-}
-
 AlignedBox2d grown(const AlignedBox2d& box, double margin) {
   const Vector2d by = Vector2d::Constant(margin);
   return AlignedBox2d(box.min() - by, box.max() + by);
@@ -39,15 +33,15 @@ std::vector<std::pair<int, int>> with_cost(const std::vector<int>& nodes, int co
 }  // namespace
 
 Graph::Graph(const Bounds& bounds, Pieces& pieces, bool confirm, const ProofLimits& limits, std::uint64_t& work)
-    : bounds_(bounds), pieces_(pieces), confirm_(confirm), limits_(limits), work_(work) {
+    : bounds_(bounds), pieces_(pieces), confirm_(confirm), limits_(limits), work_(work), field_(bounds.field()) {
   make_starts();
 }
 
 bool Graph::spend() {
-  constexpr std::uint64_t look_at_clock = 256;
+  constexpr int look_at_clock = 64;
   ++work_;
   if (work_ >= limits_.work || pieces_.size() >= most_pieces) exhausted_ = true;
-  if (work_ % look_at_clock == 0 && std::chrono::steady_clock::now() >= limits_.deadline) exhausted_ = true;
+  if (++since_clock_ % look_at_clock == 0 && std::chrono::steady_clock::now() >= limits_.deadline) exhausted_ = true;
   return !exhausted_;
 }
 
@@ -63,87 +57,107 @@ void Graph::make_starts() {
 }
 
 void Graph::make_start(const terrain::Foothold& first, const terrain::Foothold& second) {
-  Node node;
-  node.first = pieces_.add_point(first);
-  node.second = pieces_.add_point(second);
-  node.starts = true;
-  const Piece &a = pieces_.foot(node.first).piece, &b = pieces_.foot(node.second).piece;
-  node.coms = bounds_.stance(a, b);
-  if (const auto& com = bounds_.scene().start.com) bounds_.clip_to_point(node.coms, *com);
-  bounds_.clip_to_sight(node.coms, a);
-  bounds_.clip_to_sight(node.coms, b);
-  node.middle_coms = node.coms;
-  const std::array feet{&pieces_.foot(node.first), &pieces_.foot(node.second)};
+  Pair pair;
+  pair.first = pieces_.add_point(first);
+  pair.second = pieces_.add_point(second);
+  pair.starts = true;
+  const Foot &a = pieces_.foot(pair.first), &b = pieces_.foot(pair.second);
+  pair.coms = bounds_.reachable(a.piece, b.piece);
+  pair.region = field_.region_of(pair.coms);
+  bounds_.clip_to_balance(pair.coms, a.piece, b.piece);
+  if (const auto& com = bounds_.scene().start.com) bounds_.clip_to_point(pair.coms, *com);
+  bounds_.clip_to_sight(pair.coms, a.piece);
+  bounds_.clip_to_sight(pair.coms, b.piece);
+  pair.middle_coms = pair.coms;
+  const std::array feet{&a, &b};
   spend();
-  if (!bounds_.may_hold(node.coms, {feet, feet}, bounds_.reach() * limits_.finest)) return;
-  node.to_goal = bounds_.scene().goal.distance(node.coms.centre());
-  starts_.push_back(static_cast<int>(nodes_.size()));
-  nodes_.push_back(std::move(node));
+  const unsigned parts =
+      bounds_.may_hold(pair.coms, {feet, feet}, pair.region, finest_for({pair.first, pair.second}), work_);
+  if (parts == 0) return;
+  const int id = add(std::move(pair));
+  for (int part = 0; part < most_parts; ++part)
+    if (parts >> part & 1) starts_.push_back(node_of(id, part));
 }
 
-int Graph::node_of(int first, int second) {
+int Graph::add(Pair pair) {
+  pair.to_goal = bounds_.scene().goal.distance(pair.coms.centre());
+  pairs_.push_back(std::move(pair));
+  return static_cast<int>(pairs_.size()) - 1;
+}
+
+int Graph::pair_of(int first, int second) {
   if (first > second) std::swap(first, second);
-  auto [entry, is_new] = node_index_.try_emplace(key_of(first, second), -1);
+  auto [entry, is_new] = pair_index_.try_emplace(key_of(first, second), -1);
   if (!is_new) return entry->second;
-  Node node;
-  node.first = first;
-  node.second = second;
+  Pair pair;
+  pair.first = first;
+  pair.second = second;
   spend();
-  node.coms = bounds_.stance(pieces_.foot(first).piece, pieces_.foot(second).piece);
-  if (node.coms.empty()) return -1;
-  if (confirm_) node.middle_coms = bounds_.stance(pieces_.middle(first).piece, pieces_.middle(second).piece);
-  node.to_goal = bounds_.scene().goal.distance(node.coms.centre());
-  entry->second = static_cast<int>(nodes_.size());
-  nodes_.push_back(std::move(node));
-  return entry->second;
+  const auto stance = [&](const Foot& a, const Foot& b, bool regard) {
+    Convex coms = bounds_.reachable(a.piece, b.piece);
+    if (regard) pair.region = field_.region_of(coms);
+    bounds_.clip_to_balance(coms, a.piece, b.piece);
+    return coms;
+  };
+  pair.coms = stance(pieces_.foot(first), pieces_.foot(second), true);
+  if (pair.coms.empty() || pair.region.parts() == 0) return -1;
+  if (confirm_) pair.middle_coms = stance(pieces_.middle(first), pieces_.middle(second), false);
+  return entry->second = add(std::move(pair));
 }
 
 // ---- edges ------------------------------------------------------------------------------------------------------
 
+double Graph::finest_for(std::initializer_list<int> pieces) const {
+  double longest = 0;
+  for (const int piece : pieces) longest = std::max(longest, pieces_.length(piece));
+  return std::max(longest / 4, bounds_.reach() * limits_.finest);
+}
+
 /// Whether a foot may be placed on the third piece, or lifted from it, at a COM of the stance.
-Way Graph::way(const Node& node, int third) {
-  if (!spend()) return Way::none;
+Ways Graph::ways(const Pair& pair, int third) {
+  if (!spend()) return {};
   const auto ask = [&](Convex coms, const Foot& a, const Foot& b, const Foot& c, auto&& judge) {
     bounds_.clip_to_reach(coms, c.piece);
     bounds_.clip_to_sight(coms, c.piece);
     const std::array feet{&a, &b, &c}, seen{&c, &a, &b};
-    return judge(coms, Demand{feet, {seen.data(), node.starts ? std::size_t{3} : std::size_t{1}}});
+    return judge(coms, Demand{feet, {seen.data(), pair.starts ? std::size_t{3} : std::size_t{1}}});
   };
-  const Foot &a = pieces_.foot(node.first), &b = pieces_.foot(node.second), &c = pieces_.foot(third);
-  const double longest = std::max({a.piece.length(), b.piece.length(), c.piece.length()});
-  const double finest = std::max(longest / 4, bounds_.reach() * limits_.finest);
-  if (!ask(node.coms, a, b, c, [&](const Convex& coms, const Demand& demand) {
-        return bounds_.may_hold(coms, demand, finest);
-      }))
-    return Way::none;
-  if (!confirm_) return Way::doubtful;
-  const bool confirmed = ask(node.middle_coms, pieces_.middle(node.first), pieces_.middle(node.second),
-                             pieces_.middle(third), [&](const Convex& coms, const Demand& demand) {
-                               return bounds_.does_hold(coms, demand);
-                             });
-  return confirmed ? Way::certain : Way::doubtful;
+  Ways found;
+  const double finest = finest_for({pair.first, pair.second, third});
+  found.possible = ask(pair.coms, pieces_.foot(pair.first), pieces_.foot(pair.second), pieces_.foot(third),
+                       [&](const Convex& coms, const Demand& demand) {
+                         return bounds_.may_hold(coms, demand, pair.region, finest, work_);
+                       });
+  if (!confirm_ || found.possible == 0) return found;
+  found.certain = ask(pair.middle_coms, pieces_.middle(pair.first), pieces_.middle(pair.second), pieces_.middle(third),
+                      [&](const Convex& coms, const Demand& demand) {
+                        return bounds_.does_hold(coms, demand, pair.region, found.possible, work_);
+                      });
+  return found;
 }
 
-Way Graph::way_to_goal(Node& node) {
-  if (node.goal) return *node.goal;
+Ways Graph::ways_to_goal(Pair& pair) {
+  if (pair.goal) return *pair.goal;
+  pair.goal = Ways{};
+  if (!spend()) return {};
   const auto ask = [&](Convex coms, const Foot& a, const Foot& b, auto&& judge) {
     bounds_.clip_to_goal(coms);
     const std::array feet{&a, &b};
-    return judge(coms, Demand{feet, {feet.data(), node.starts ? std::size_t{2} : std::size_t{0}}});
+    return judge(coms, Demand{feet, {feet.data(), pair.starts ? std::size_t{2} : std::size_t{0}}});
   };
-  node.goal = Way::none;
-  const Foot &a = pieces_.foot(node.first), &b = pieces_.foot(node.second);
-  const double finest = std::max(std::max(a.piece.length(), b.piece.length()) / 4, bounds_.reach() * limits_.finest);
-  if (!spend() || !ask(node.coms, a, b, [&](const Convex& coms, const Demand& demand) {
-        return bounds_.may_hold(coms, demand, finest);
-      }))
-    return Way::none;
-  const bool confirmed = confirm_ && ask(node.middle_coms, pieces_.middle(node.first), pieces_.middle(node.second),
-                                         [&](const Convex& coms, const Demand& demand) {
-                                           return bounds_.does_hold(coms, demand);
-                                         });
-  node.goal = confirmed ? Way::certain : Way::doubtful;
-  return *node.goal;
+  Ways found;
+  const double finest = finest_for({pair.first, pair.second});
+  found.possible = ask(pair.coms, pieces_.foot(pair.first), pieces_.foot(pair.second),
+                       [&](const Convex& coms, const Demand& demand) {
+                         return bounds_.may_hold(coms, demand, pair.region, finest, work_);
+                       });
+  if (confirm_ && found.possible != 0)
+    found.certain = ask(pair.middle_coms, pieces_.middle(pair.first), pieces_.middle(pair.second),
+                        [&](const Convex& coms, const Demand& demand) {
+                          return bounds_.does_hold(coms, demand, pair.region, found.possible, work_);
+                        });
+  pair.goal = found;
+  return found;
 }
 
 const Graph::Triple& Graph::triple_of(const std::array<int, 3>& sorted) {
@@ -151,33 +165,35 @@ const Graph::Triple& Graph::triple_of(const std::array<int, 3>& sorted) {
   if (!is_new) return entry->second;
   Triple triple{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const int a = sorted[k == 0 ? 1 : 0], b = sorted[k == 2 ? 1 : 2];
     const bool twin = k > 0 && sorted[k] == sorted[k - 1];  // the same pair and third again
-    const int id = twin ? -1 : node_of(a, b);
-    triple.way[k] = twin ? triple.way[k - 1] : id < 0 ? Way::none : way(nodes_[id], sorted[k]);
+    if (twin) {
+      triple.ways[k] = triple.ways[k - 1];
+      continue;
+    }
+    const int id = pair_of(sorted[k == 0 ? 1 : 0], sorted[k == 2 ? 1 : 2]);
+    if (id >= 0) triple.ways[k] = ways(pairs_[id], sorted[k]);
   }
-  return triples_[key_of(sorted[0], sorted[1], sorted[2])] = triple;
+  return entry->second = triple;
 }
 
-Way Graph::way_of(int first, int second, int third) {
+Ways Graph::ways_of(int first, int second, int third) {
   std::array<int, 3> sorted{first, second, third};
   std::sort(sorted.begin(), sorted.end());
   const Triple& triple = triple_of(sorted);
   for (std::size_t k = 0; k < 3; ++k)
-    if (sorted[k] == third) return triple.way[k];
-  return Way::none;
+    if (sorted[k] == third) return triple.ways[k];
+  return {};
 }
 
-/// Lists the third pieces of a node, and replaces those that have been halved since.
-void Graph::renew_thirds(int id) {
+/// Lists the third pieces of a pair, and replaces those that have been halved since.
+void Graph::renew_thirds(Pair& pair) {
   std::vector<int> candidates;
-  std::vector<Third> kept;
-  Node& node = nodes_[id];
-  if (!node.listed) {
-    node.listed = true;
-    pieces_.in_box(grown(box_of(node.coms), bounds_.reach() + bounds_.slack()), candidates);
+  std::vector<Pair::Third> kept;
+  if (!pair.listed) {
+    pair.listed = true;
+    pieces_.in_box(grown(pair.coms.box(), bounds_.reach() + bounds_.slack()), candidates);
   } else {
-    for (const Third& third : node.thirds) {
+    for (const Pair::Third& third : pair.thirds) {
       if (pieces_.is_halved(third.piece))
         pieces_.leaves(third.piece, candidates);
       else
@@ -186,26 +202,33 @@ void Graph::renew_thirds(int id) {
     if (candidates.empty()) return;
   }
   for (const int piece : candidates) {
-    const Way found = node.starts ? way(node, piece) : way_of(node.first, node.second, piece);
-    if (found != Way::none) kept.push_back({piece, found});
+    const Ways found = pair.starts ? ways(pair, piece) : ways_of(pair.first, pair.second, piece);
+    if (found.possible != 0) kept.push_back({piece, found});
   }
-  node.thirds = std::move(kept);
+  pair.thirds = std::move(kept);
 }
 
 template <class Visit>
-void Graph::edges(int id, Visit&& visit) {
-  renew_thirds(id);
-  const Node& node = nodes_[id];
-  const auto step = [&](int first, int second, int lifted, const Third& third) {
-    const Way next = way_of(first, second, lifted);
-    if (next == Way::none) return;
-    visit(node_of(first, second), next == Way::doubtful || third.way == Way::doubtful, third.piece);
+void Graph::edges(int node, Visit&& visit) {
+  Pair& pair = pairs_[node / most_parts];
+  renew_thirds(pair);
+  const unsigned part = part_of(node);
+  const auto step = [&](int first, int second, int lifted, const Pair::Third& third) {
+    const Ways after = ways_of(first, second, lifted);
+    if (after.possible == 0) return;
+    const int id = pair_of(first, second);
+    for (int next = 0; next < most_parts; ++next) {
+      const unsigned next_part = 1u << next;
+      if (!(after.possible & next_part) || !pair.region.meets(node % most_parts, pairs_[id].region, next)) continue;
+      visit(node_of(id, next), !(third.ways.certain & part) || !(after.certain & next_part), third.piece);
+    }
   };
-  for (std::size_t k = 0; k < node.thirds.size() && !exhausted_; ++k) {
-    const Third third = node.thirds[k];
-    step(node.first, third.piece, node.second, third);
-    step(node.second, third.piece, node.first, third);
-    if (node.starts) step(node.first, node.second, third.piece, third);
+  for (std::size_t k = 0; k < pair.thirds.size() && !exhausted_; ++k) {
+    const Pair::Third third = pair.thirds[k];
+    if (!(third.ways.possible & part)) continue;
+    step(pair.first, third.piece, pair.second, third);
+    step(pair.second, third.piece, pair.first, third);
+    if (pair.starts) step(pair.first, pair.second, third.piece, third);
   }
 }
 
@@ -224,7 +247,7 @@ void Graph::spread(Marks& marks, const std::vector<std::pair<int, int>>& from, A
     auto [entry, is_new] = marks.try_emplace(id, Mark{cost, false});
     if (!is_new && (entry->second.settled || entry->second.cost <= cost)) return;
     entry->second.cost = cost;
-    open.push({cost, nodes_[id].to_goal, id});
+    open.push({cost, pair(id).to_goal, id});
   };
   for (const auto& [id, cost] : from) offer(id, cost);
   while (!open.empty() && !exhausted_) {
@@ -245,9 +268,11 @@ std::optional<int> Graph::search() {
   std::optional<int> least;
   spread(forward_, with_cost(starts_, 0), [&](int id, int cost) {
     if (least && cost >= *least) return -1;
-    const Way goal = way_to_goal(nodes_[id]);
-    if (goal == Way::certain) least = cost;
-    if (goal == Way::doubtful) least = std::min(least.value_or(cost + 1), cost + 1);
+    const Ways goal = ways_to_goal(pairs_[id / most_parts]);
+    if (goal.certain & part_of(id))
+      least = cost;
+    else if (goal.possible & part_of(id))
+      least = std::min(least.value_or(cost + 1), cost + 1);
     return least && *least == cost ? -1 : 1;
   });
   return least;
@@ -264,34 +289,29 @@ void Graph::choose(std::array<int, 3> pieces, std::vector<int>& chosen) const {
 }
 
 bool Graph::refine(int least) {
-  std::vector<int> goals, chosen;
-  for (const auto& [id, mark] : forward_) {
-    Node& node = nodes_[id];
-    if (!mark.settled || !node.goal || *node.goal == Way::none) continue;
-    const int cost = *node.goal == Way::doubtful;
-    if (mark.cost + cost > least) continue;
-    if (cost == 1) choose({node.first, node.second, node.first}, chosen);
-    goals.push_back(id);
+  std::vector<int> chosen;
+  std::vector<std::pair<int, int>> goals;
+  for (const int id : reached()) {
+    const Pair& here = pair(id);
+    if (!here.goal || !(here.goal->possible & part_of(id))) continue;
+    const int cost = here.goal->certain & part_of(id) ? 0 : 1;
+    if (forward_.at(id).cost + cost > least) continue;
+    if (cost == 1) choose({here.first, here.second, here.first}, chosen);
+    goals.emplace_back(id, cost);
   }
-  std::sort(goals.begin(), goals.end());
   const auto within = [&](int id, int cost) {
     const auto found = forward_.find(id);
     return found != forward_.end() && found->second.settled && found->second.cost + cost <= least;
   };
   Marks backward;
-  std::vector<std::pair<int, int>> from;
-  for (const int id : goals) from.emplace_back(id, *nodes_[id].goal == Way::doubtful);
-  spread(backward, from, [&](int id, int cost) { return within(id, cost) ? 1 : 0; });
-  std::vector<int> ids;
-  for (const auto& [id, mark] : forward_)
-    if (mark.settled) ids.push_back(id);
-  std::sort(ids.begin(), ids.end());
-  for (const int id : ids)
+  spread(backward, goals, [&](int id, int cost) { return within(id, cost) ? 1 : 0; });
+  for (const int id : reached())
     edges(id, [&](int next, bool is_doubtful, int third) {
       if (!is_doubtful) return;
       const auto after = backward.find(next);
       if (after == backward.end() || !after->second.settled) return;
-      if (forward_.at(id).cost + 1 + after->second.cost <= least) choose({nodes_[id].first, nodes_[id].second, third}, chosen);
+      if (forward_.at(id).cost + 1 + after->second.cost <= least)
+        choose({pair(id).first, pair(id).second, third}, chosen);
     });
   std::sort(chosen.begin(), chosen.end());
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
@@ -320,8 +340,11 @@ std::vector<int> Graph::goal_nodes() {
     for (std::size_t j = i; j < near.size() && !exhausted_; ++j) {
       const Piece &a = pieces_.foot(near[i]).piece, &b = pieces_.foot(near[j]).piece;
       if ((a.a - b.a).norm() > 2 * bounds_.reach() + a.length() + b.length() + bounds_.slack()) continue;
-      const int id = node_of(near[i], near[j]);
-      if (id >= 0 && way_to_goal(nodes_[id]) != Way::none) found.push_back(id);
+      const int id = pair_of(near[i], near[j]);
+      if (id < 0) continue;
+      const unsigned parts = ways_to_goal(pairs_[id]).possible;
+      for (int part = 0; part < most_parts; ++part)
+        if (parts >> part & 1) found.push_back(node_of(id, part));
     }
   return found;
 }

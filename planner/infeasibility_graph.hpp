@@ -1,5 +1,6 @@
-// The graph of the proof of impossibility: nodes are pairs of pieces of terrain that may carry a stance, edges join two
-// pairs of three pieces wherever a transfer between them is not excluded. Every plan of the scene is a way in it.
+// The graph of the proof of impossibility: nodes are pairs of pieces of terrain that may carry a stance, with a part of
+// the region where the COM then is; edges join two pairs of three pieces wherever a transfer between them is not
+// excluded. Every plan of the scene is a way in it.
 //
 // Pieces are halves of halves of segments, made when something looks at them; an edge is `certain` if it was confirmed
 // for the middles of the pieces, else `doubtful`. Refinement halves the pieces of doubtful edges.
@@ -56,21 +57,25 @@ class Pieces {
   std::vector<std::shared_ptr<std::vector<const terrain::Segment*>>> surroundings_;
 };
 
-enum class Way : std::uint8_t { none, doubtful, certain };
-
-struct Third {
-  int piece;
-  Way way;
+/// For each part of a stance's region: whether something is possible there (bits), and confirmed for the middles.
+struct Ways {
+  unsigned possible = 0, certain = 0;
 };
 
-struct Node {
-  int first = 0, second = 0;      ///< pieces
-  Convex coms, middle_coms;       ///< of the pieces, of their middles
-  bool starts = false;            ///< a first stance: both legs are visible, and the COM is the given one
+/// Two pieces that may carry a stance.
+struct Pair {
+  struct Third {
+    int piece;
+    Ways ways;
+  };
+  int first = 0, second = 0;   ///< pieces
+  Convex coms, middle_coms;    ///< of the pieces, of their middles
+  Region region;
+  bool starts = false;         ///< a first stance: both legs are visible, and the COM is the given one
   bool listed = false;
-  std::vector<Third> thirds;      ///< pieces on which a foot may be placed or lifted from this stance
-  std::optional<Way> goal;        ///< whether its COM may lie in the goal
-  double to_goal = 0;             ///< [m] guides the search
+  std::vector<Third> thirds;   ///< pieces on which a foot may be placed or lifted from this stance
+  std::optional<Ways> goal;    ///< the COM may lie in the goal
+  double to_goal = 0;          ///< [m] guides the search
 };
 
 class Graph {
@@ -80,8 +85,7 @@ class Graph {
 
   bool exhausted() const { return exhausted_; }  ///< a limit was reached: what is found then means nothing
   bool has_start() const { return !starts_.empty(); }
-  const Node& node(int id) const { return nodes_[id]; }
-  const Pieces& pieces() const { return pieces_; }
+  const Pair& pair(int node) const { return pairs_[node / most_parts]; }
 
   /// Least number of doubtful edges from a first stance to the goal; nothing if the goal cannot be reached.
   std::optional<int> search();
@@ -97,7 +101,7 @@ class Graph {
 
  private:
   struct Triple {
-    std::array<Way, 3> way;  // of the pair without the k-th piece, with the k-th as the third
+    std::array<Ways, 3> ways;  // of the pair without the k-th piece, with the k-th as the third
   };
   struct Mark {
     int cost;
@@ -111,19 +115,23 @@ class Graph {
     bool operator<(const Entry& other) const;  // for a heap: the best is the greatest
   };
 
+  static int node_of(int pair, int part) { return pair * most_parts + part; }
+  static unsigned part_of(int node) { return 1u << (node % most_parts); }
   void make_starts();
   void make_start(const terrain::Foothold& first, const terrain::Foothold& second);
-  int node_of(int first, int second);
-  Way way(const Node& node, int third);
-  Way way_to_goal(Node& node);
+  int pair_of(int first, int second);
+  int add(Pair pair);
+  double finest_for(std::initializer_list<int> pieces) const;
+  Ways ways(const Pair& pair, int third);
+  Ways ways_to_goal(Pair& pair);
   const Triple& triple_of(const std::array<int, 3>& sorted);
-  Way way_of(int first, int second, int third);
-  void renew_thirds(int id);
+  Ways ways_of(int first, int second, int third);
+  void renew_thirds(Pair& pair);
   /// visit(node, doubtful, third piece) for every edge.
   template <class Visit>
-  void edges(int id, Visit&& visit);
+  void edges(int node, Visit&& visit);
   template <class Admit>
-  void spread(Marks& marks, const std::vector<std::pair<int, int>>& from, Admit&& admit);  // from: nodes and their costs
+  void spread(Marks& marks, const std::vector<std::pair<int, int>>& from, Admit&& admit);  // from: nodes, their costs
   void choose(std::array<int, 3> pieces, std::vector<int>& chosen) const;
   bool spend();
 
@@ -133,9 +141,11 @@ class Graph {
   const ProofLimits& limits_;
   std::uint64_t& work_;
   bool exhausted_ = false;
-  std::deque<Node> nodes_;
-  std::vector<int> starts_;
-  std::unordered_map<std::uint64_t, int> node_index_;  // by pair of pieces; -1: no stance
+  int since_clock_ = 0;
+  Field field_;
+  std::deque<Pair> pairs_;  // references stay good
+  std::vector<int> starts_;  // nodes
+  std::unordered_map<std::uint64_t, int> pair_index_;  // by pieces; -1: no stance
   std::unordered_map<std::uint64_t, Triple> triples_;
   Marks forward_;
 };

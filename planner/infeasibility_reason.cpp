@@ -15,37 +15,19 @@ using Interval = std::pair<double, double>;
 
 namespace {
 
-constexpr Rules only_reach{false, false, false, false, false, false};
-constexpr Rules with(bool balance, bool disturbance, bool sight, bool clearance) {
-  return {balance, disturbance, false, sight, clearance, false};
-}
-/// Fewest rules first; of as many, the one a reader expects.
-constexpr Rules candidates[] = {
-    only_reach,
-    with(true, false, false, false),
-    with(true, true, false, false),
-    with(false, false, true, false),
-    with(false, false, false, true),
-    {false, false, false, false, false, true},
-    with(false, false, true, true),
-    with(true, false, true, false),
-    with(true, true, true, false),
-    with(true, false, false, true),
-    with(true, true, false, true),
-    with(true, false, true, true),
-    with(true, true, true, true),
-    {true, true, false, true, true, true},
-};
+/// In the order in which it is tried to do without them: what is named in the end is what a reader expects first.
+constexpr bool Rules::*droppable[] = {&Rules::modes, &Rules::least_reach, &Rules::clearance,
+                                      &Rules::sight, &Rules::disturbance, &Rules::balance};
 
 class Explainer {
  public:
   Explainer(const gaits::Scene& scene, Pieces& pieces, const ProofLimits& limits, std::uint64_t work)
-      : scene_(scene), pieces_(pieces), limits_(limits), full_(scene, {}) {
+      : scene_(scene), pieces_(pieces), limits_(limits), whole_(limits.work), full_(scene, {}) {
     result_.work = work;
-    limits_.work = work + limits.work;
   }
 
   Impossibility run() {
+    allot(whole_);
     Graph graph(full_, pieces_, false, limits_, result_.work);
     if (!graph.has_start()) {
       result_.obstacle = Obstacle::start;
@@ -64,7 +46,9 @@ class Explainer {
   }
 
  private:
+  void allot(std::uint64_t share) { limits_.work = result_.work + share; }
   bool impossible(const Rules& rules) {
+    allot(whole_ / 3);
     const Bounds bounds(scene_, rules);
     Graph graph(bounds, pieces_, false, limits_, result_.work);
     switch (result_.obstacle) {
@@ -74,10 +58,17 @@ class Explainer {
     }
     return false;
   }
+  /// As few rules as will do.
   Rules sufficient() {
-    for (const Rules& rules : candidates)
-      if (impossible(rules)) return rules;
-    return {};
+    Rules rules;
+    const std::uint64_t last = result_.work + whole_;
+    for (const auto rule : droppable) {
+      if (result_.work > last) break;
+      Rules fewer = rules;
+      fewer.*rule = false;
+      if (impossible(fewer)) rules = fewer;
+    }
+    return rules;
   }
 
   void place_at_start();
@@ -91,6 +82,7 @@ class Explainer {
   const gaits::Scene& scene_;
   Pieces& pieces_;
   ProofLimits limits_;
+  const std::uint64_t whole_;  // work allowed
   Bounds full_;
   Impossibility result_;
   double gap_ = 0;  // [m] least distance between feet of the two sides
@@ -109,7 +101,7 @@ void Explainer::place_at_start() {
 AlignedBox2d Explainer::feet_of(const Graph& graph, const std::vector<int>& nodes, std::set<int>& stood_on) const {
   AlignedBox2d box;
   for (const int id : nodes)
-    for (const int piece : {graph.node(id).first, graph.node(id).second}) {
+    for (const int piece : {graph.pair(id).first, graph.pair(id).second}) {
       box.extend(pieces_.foot(piece).piece.a);
       box.extend(pieces_.foot(piece).piece.b);
       stood_on.insert(piece);
@@ -200,7 +192,7 @@ std::string Explainer::gap_words() const {
   }
   if (gap_ > 2 * scene_.robot.reach_max && std::isfinite(gap_))
     return fmt::format("no support pair within reach {} spans the gap of {} m", reach, number(gap_));
-  return fmt::format("no transfer with three feet within reach {} of its COMs spans the gap", reach);
+  return fmt::format("no transfers with all feet within reach {} of the COM span the gap", reach);
 }
 
 std::string Explainer::rule_words(const Rules& rules) const {
@@ -217,10 +209,13 @@ std::string Explainer::rule_words(const Rules& rules) const {
     demands.push_back(fmt::format("keeps the clearance {}", number(robot.clearance)));
   if (rules.least_reach && robot.reach_min > 0)
     demands.push_back(fmt::format("keeps the feet {} m away", number(robot.reach_min)));
-  const char* of = result_.obstacle == Obstacle::start   ? "two start feet"
-                   : result_.obstacle == Obstacle::goal  ? "two feet"
-                                                         : "the feet of a transfer";
-  return fmt::format("no COM within reach {} of {} {}", number(robot.reach_max), of, fmt::join(demands, " and "));
+  const std::string all = fmt::format("{}", fmt::join(demands, " and ")), reach = number(robot.reach_max);
+  switch (result_.obstacle) {
+    case Obstacle::start: return fmt::format("no COM within reach {} of two start feet {}", reach, all);
+    case Obstacle::goal: return fmt::format("no COM within reach {} of two feet {}", reach, all);
+    case Obstacle::barrier: break;
+  }
+  return fmt::format("no transfers with all feet within reach {} of a COM that {} lead across", reach, all);
 }
 
 }  // namespace

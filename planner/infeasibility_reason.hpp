@@ -1,6 +1,6 @@
 // Place and reason of an impossibility that is proven already: where the feet that the start and those that the goal can
-// reach end, and which rules alone suffice to keep them apart (the proof is repeated with fewer rules on the same
-// pieces, fewest first; what is named is therefore proven too).
+// reach end, and which rules suffice to keep them apart: one rule after the other is dropped where the proof holds
+// without it on the same pieces. What is named in the end is therefore proven too.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace surefoot::planner::proof {
 
-/// For pieces on which the goal cannot be reached. Spends at most as much work again as the limit; where that is not
-/// enough, the reason is less precise.
+/// For pieces on which the goal cannot be reached. Spends up to twice the work of the limits on it; where that is not
+/// enough, more rules are named than needed.
 Impossibility explain(const gaits::Scene& scene, Pieces& pieces, const ProofLimits& limits, std::uint64_t work);
 
 }  // namespace surefoot::planner::proof

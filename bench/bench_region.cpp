@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "stability/region.hpp"
+#include "stability/region_rectangle.hpp"
 #include "tests/support/sample_posture.hpp"
 
 namespace {
@@ -83,11 +84,11 @@ class Quadtree {
       inside &= value >= spread;
     }
     bool refused = false;
-    for (const RegionMode& mode : modes_.modes()) {
-      bool feasible = false;
-      if (modes_.excluded(mode, s, ds, t, dt, feasible)) continue;
+    for (int mode = 0; mode < static_cast<int>(modes_.modes().size()); ++mode) {
+      const ModeThere there = mode_there(modes_, mode, {s - ds, s + ds, t - dt, t + dt});
+      if (there.kind == ModeThere::nowhere) continue;
       inside = false;
-      refused |= feasible;
+      refused |= there.kind == ModeThere::everywhere;
     }
     if (inside) {
       found_.value += size;

@@ -72,6 +72,7 @@ class DualCertificate {
   /// proves the mode infeasible between the COMs of the frames. If Z is positive on K, the inequalities (*) need not be
   /// strict. Exact.
   bool proves_along_axis(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const;
+  const TwistCone<double>& cone() const { return cone_; }
 
  private:
   Covector propose_widened(const Frame<double>& frame, double widening) const;

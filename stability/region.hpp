@@ -2,22 +2,24 @@
 // non-static modes that are feasible there for some wrench of W. The cells without modes make up the robust stability
 // region R(W); with a box of one wrench they are the strong stability region R(w).
 //
-// Method: a sweep of straight lines on which the problem is solved exactly in one dimension (region_line.hpp). Between
-// the places where the order of curves along the line changes the ends of all intervals are smooth functions, which
-// Gauss-Kronrod rules integrate to many digits with few lines; those places are found by Newton's method on the pairs
-// of curves that the lines on both sides name, else by bisection. Why not something else: boundaries are quadratic up
-// to sextic and touch or coincide on flat and symmetric ground, where arrangement packages need exact algebraic numbers
-// and fail or take seconds; the paper's list of silhouette curves is incomplete [theory 8.7], while marching along a
-// line needs no list; a quadtree is as robust but its error falls only as one over its cost (bench/bench_region.cpp
-// shows both). Lines are neither level nor upright but in a direction away from all normals, tangents and the vertical,
-// so that straight boundaries are not parallel to them.
+// Two methods that share the rows of the modes and nothing else.
+//   Subdivision (region_subdivision.hpp), for proof: rectangles are halved until certificates decide every mode in
+//     them, or show that its boundary is one curve; the curve is then enclosed by a polynomial. What is undecided counts
+//     as error. It needs no list of curves, touching and coinciding ones included, and gives the areas of R_SS(W) and
+//     R(W) with a bound (region_areas).
+//   Sweep (region_sweep.hpp), for the arrangement: on straight lines the problem is solved exactly, between the places
+//     where the order of curves changes the ends of all intervals are smooth and integrated by Gauss-Kronrod rules. It
+//     gives cells with their rings, and areas to about ten digits, but can miss what lies between two of its lines.
+// Why not something else: boundaries are quadratic up to sextic and touch or coincide on flat and symmetric ground,
+// where arrangement packages need exact algebraic numbers and fail or take seconds; the paper's list of silhouette
+// curves is incomplete [theory 8.7]; a quadtree without curves is as sound but its error falls only as one over its cost
+// (bench/bench_region.cpp shows all of them).
 //
-// Guarantee and limits. Modes are excluded from a strip of the sweep only by certificates that hold on rectangles
-// covering it. Each cell's set of modes is confirmed by RobustOracle at a point inside (for a box about gravity;
-// otherwise by the rows in doubles); a cell where that fails counts as error and is reported in `note`. `area_error`
-// adds up the estimated errors of the rules (difference of two orders) and bounds for what the sweep passed over; a
-// cell that lies between two lines of the sweep in a strip where its mode is not excluded (1/32 of the region's extent)
-// can be missed.
+// Guarantee. `area_error` bounds the error of equilibrium_area and robust_area, `cells_error` the sum over all sets of
+// modes of the error of the area in which just these are feasible: bounds in doubles with their rounding error, not
+// estimates. Limits: rows that are opposite to within 1e-12 count as opposite. Each cell's modes are confirmed at a
+// point inside by RobustOracle, exactly; for a box that is not about gravity there is no exact fallback, rows in doubles
+// with their error bound confirm or leave the cell unconfirmed. Unconfirmed cells count in cells_error and are noted.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -33,7 +35,7 @@ namespace surefoot::stability {
 using RegionPolygon = std::vector<Eigen::Vector2d>;
 
 struct RegionOptions {
-  double area_tolerance = 1e-6;  ///< of each area, relative to the area of R_SS(W)
+  double area_tolerance = 1e-6;  ///< error of areas that is aimed at, relative to the area of R_SS(W)
   std::optional<Eigen::AlignedBox2d> window;  ///< [m] clip to this; otherwise only what is unbounded is clipped
   bool curves = true;                 ///< rings of cells and boundary polylines; areas alone are cheaper
   double curve_tolerance = 1e-4;      ///< of polylines, relative to the diagonal of R_SS(W)
@@ -42,6 +44,7 @@ struct RegionOptions {
 struct RegionCell {
   std::vector<ContactMode> modes;       ///< feasible for some wrench of W; empty: part of R(W)
   double area = 0;                      ///< [m^2]
+  bool confirmed = true;                ///< its modes are those at `inside`
   Eigen::Vector2d inside = Eigen::Vector2d::Zero();  ///< a point well inside
   std::vector<RegionPolygon> rings;     ///< the outer one first, then holes; empty without `curves`
 };
@@ -60,14 +63,15 @@ struct ModeShare {
 struct Region {
   RegionPolygon equilibrium;  ///< R_SS(W), clipped; counter-clockwise
   double equilibrium_area = 0, robust_area = 0;  ///< [m^2]
-  double area_error = 0;                         ///< [m^2] of any area given here
+  double area_error = 0;                         ///< [m^2] bounds the error of both
+  double cells_error = 0;                        ///< [m^2] bounds that of the cells, summed over sets of modes
   std::vector<RegionCell> cells;                 ///< connected; greatest first, R(W) before the rest
   std::vector<ModeShare> modes;                  ///< those that occur, greatest first
   std::vector<RegionBoundary> boundaries;
   std::optional<Eigen::AlignedBox2d> window;     ///< where the region had to be, or was asked to be, clipped
   double curve_tolerance = 0;                    ///< [m]
   std::string note;                              ///< what a reader must know; usually empty
-  int lines = 0;                                 ///< lines solved, a measure of the work
+  int lines = 0, rectangles = 0;                 ///< of the sweep and the subdivision: measures of the work
 
   bool empty() const { return equilibrium.empty(); }
 };
@@ -75,6 +79,20 @@ struct Region {
 /// Contacts and radius of gyration as for RobustOracle.
 Region region(std::span<const Contact> contacts, double radius_of_gyration, const WrenchBox& box,
               const RegionOptions& options = {});
+
+/// The areas alone, at a fraction of the cost: typically 100 to 700 rectangles of 1 to 2 us.
+struct RegionAreas {
+  double equilibrium = 0, robust = 0;  ///< [m^2] of R_SS(W), clipped, and of R(W)
+  double error = 0;                    ///< [m^2] bounds the error of both
+  std::optional<Eigen::AlignedBox2d> window;
+  std::string note;
+  int rectangles = 0;
+};
+RegionAreas region_areas(std::span<const Contact> contacts, double radius_of_gyration, const WrenchBox& box,
+                         const RegionOptions& options = {});
+
+/// The work is bounded: what is undecided after this many rectangles counts as error. Typical: 100 to 1000.
+constexpr int most_rectangles = 10000, most_rectangles_for_cells = 4000;
 
 /// R_SS(W) as half-planes with what bounds them in words; for a box about gravity those of
 /// RobustOracle::equilibrium_half_planes.

@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "stability/region_rows.hpp"
+#include "stability/region_margin.hpp"
 
 namespace surefoot::stability {
 

@@ -28,10 +28,14 @@
 #include <string>
 #include <vector>
 
+#include "stability/dual_certificate.hpp"
 #include "stability/posture.hpp"
-#include "stability/region_poly.hpp"
+#include "stability/region_bivariate.hpp"
 
 namespace surefoot::stability {
+
+/// Rows equal to within this, relative to their size, count as equal: rounding of a row in doubles is below 1e-14.
+constexpr double equal_rows = 1e-12;
 
 /// Wrenches (p, q) with |p - centre.p| <= kappa, |q - centre.q| <= nu.
 struct WrenchBox {
@@ -65,16 +69,8 @@ struct RegionRow {
   signed char contact = 0;
 };
 
-/// A covector A of a slide: A . M^-1 v over the box and A . M^-1 s, both times rho^2.
-struct SlideCovector {
-  Form<Poly2> load;
-  Poly2 push;
-};
-
 struct RegionMode {
   ModeSpec spec{};
-  int covectors = 0;                        ///< slides: those that must be positive on the twist, then N_i, which must be 0
-  std::array<SlideCovector, 4> covector;
   ContactMode mode;
   int count = 0;
   std::array<RegionRow, 6> row;
@@ -92,18 +88,6 @@ struct CurveId {
   signed char place = 0;
   friend auto operator<=>(const CurveId&, const CurveId&) = default;
 };
-
-/// Solution of the margin program with its dual.
-struct Margin {
-  double value = 0;
-  CurveId basis;
-  double u = 0, w = 0;           ///< where the maximum is attained
-  int count = 0;                 ///< rows in the basis: basis.a, b, c
-  std::array<double, 3> y{};     ///< multipliers of the rows as they are (not scaled)
-};
-
-/// The margin of `count` rows given at one COM.
-Margin margin(const Form<double>* rows, int count);
 
 /// The curve of a basis from rows in any number type.
 template <class V, class RowAt>
@@ -131,6 +115,8 @@ class RegionModes {
  public:
   /// e_t a unit vector; e_s is perpendicular to it.
   RegionModes(const Posture& posture, const WrenchBox& box, const Eigen::Vector2d& origin, const Eigen::Vector2d& e_t);
+  RegionModes(const RegionModes&) = delete;
+  RegionModes& operator=(const RegionModes&) = delete;
 
   std::span<const RegionMode> modes() const { return modes_; }
   /// The polynomial of a curve about (s, t): value, gradient, second derivatives.
@@ -141,16 +127,20 @@ class RegionModes {
   void set_edges(std::vector<Poly2> edges) { edges_ = std::move(edges); }
   const std::vector<Poly2>& edges() const { return edges_; }
 
-  /// True if dual certificates exclude the mode in the whole rectangle |s - s0| <= ds, |t - t0| <= dt. `feasible` is
-  /// set if the mode is feasible in its middle. `closely`: more is tried for slides near D = 0, at about twice the
-  /// cost.
-  bool excluded(const RegionMode& mode, double s0, double ds, double t0, double dt, bool& feasible,
-                bool closely = false) const;
+  const Posture& posture() const { return posture_; }
+  const WrenchBox& box() const { return box_; }
+  const DualCertificate& certificate(int index) const { return certificates_[index]; }
+  /// Unit vectors along which s and t grow.
+  const Eigen::Vector2d& e_s() const { return e_s_; }
+  const Eigen::Vector2d& e_t() const { return e_t_; }
 
  private:
   void add(const Frame<Poly2>& frame, const ModeSpec& spec, int contacts);
 
+  Posture posture_;
   WrenchBox box_;
+  LineFrame line_;
+  std::vector<DualCertificate> certificates_;  // of each mode, with line_
   Eigen::Vector2d origin_, e_s_, e_t_;
   std::vector<RegionMode> modes_;
   std::vector<Poly2> edges_;

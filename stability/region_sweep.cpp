@@ -93,9 +93,9 @@ void Sweep::classify(int mode, int first, int last, double lo, double hi, int t_
   lo = std::max(lo, least), hi = std::min(hi, greatest);
   if (settled || !(lo <= hi)) return;
   const double a = strips_[first].a, b = strips_[last - 1].b;
-  bool feasible = false;
-  const RegionMode& rows = modes_.modes()[mode];
-  if (modes_.excluded(rows, 0.5 * (a + b), 0.5 * (b - a), 0.5 * (lo + hi), 0.5 * (hi - lo), feasible)) return;
+  const ModeThere there = mode_there(modes_, mode, {a, b, lo, hi});
+  if (there.kind == ModeThere::nowhere) return;
+  const bool feasible = there.kind != ModeThere::unknown || there.feasible_in_middle;
   const bool one_strip = last - first == 1;
   if (one_strip && (feasible || t_depth == deepest_rectangle)) {
     strips_[first].active |= 1u << mode;
@@ -278,7 +278,7 @@ void Sweep::reconcile(const SweepLine& first, SweepLine& second) const {
 /// Slabs thinner than this are not looked into; on ground where curves coincide beyond what reconcile() sees through
 /// the work is limited by looking less closely, which area_error shows.
 double Sweep::thinnest() const {
-  constexpr int many = 1000;  // lines; typical: 100
+  constexpr int many = 400;  // lines; typical: 100
   const double part = lines_ < many ? least_slab : lines_ < 2 * many ? 1e-5 : lines_ < 4 * many ? 1e-3 : 1;
   return part * (s_end_ - s_begin_);
 }

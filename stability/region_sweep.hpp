@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stability/region_line.hpp"
+#include "stability/region_rectangle.hpp"
 
 namespace surefoot::stability {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stability/region.hpp"
+#include "stability/region_rectangle.hpp"
 
 namespace surefoot::stability {
 namespace {
@@ -19,7 +20,7 @@ struct Square {
 
 /// Least distance at which the mode cannot be excluded, at most `limit`. Nearest squares first: when one that is small
 /// enough comes up, all that is nearer has been excluded.
-double distance_to(const RegionModes& modes, const RegionMode& mode, double limit) {
+double distance_to(const RegionModes& modes, int mode, double limit) {
   constexpr int most_squares = 2000;  // of one mode; typical: 1 to 300; beyond it the answer is safe but not sharp
   std::priority_queue<Square> open;
   open.push({0, 0, limit});
@@ -29,9 +30,11 @@ double distance_to(const RegionModes& modes, const RegionMode& mode, double limi
     if (distance >= limit) return limit;
     if (count == most_squares || square.half < 0.5 * disc_precision * distance) return distance;
     open.pop();
-    bool feasible = false;
-    if (modes.excluded(mode, square.s, square.half, square.t, square.half, feasible, true)) continue;
-    if (feasible) limit = std::min(limit, std::hypot(square.s, square.t));
+    const ModeThere there = mode_there(modes, mode, {square.s - square.half, square.s + square.half,
+                                                     square.t - square.half, square.t + square.half});
+    if (there.kind == ModeThere::nowhere) continue;
+    if (there.kind == ModeThere::everywhere) limit = std::min(limit, distance);
+    if (there.feasible_in_middle) limit = std::min(limit, std::hypot(square.s, square.t));
     if (square.half < 1e-300) return 0;
     const double half = 0.5 * square.half;
     for (const double s : {-half, half})
@@ -55,7 +58,7 @@ double com_tolerance(std::span<const Contact> contacts, double radius_of_gyratio
     if (slope > 0) limit = std::min(limit, std::max(0.0, (half.plane.normal.dot(com) + half.plane.offset) / slope));
   }
   const RegionModes modes(posture, wrenches, com, Eigen::Vector2d::UnitX());
-  for (const RegionMode& mode : modes.modes()) limit = distance_to(modes, mode, limit);
+  for (int k = 0; k < static_cast<int>(modes.modes().size()); ++k) limit = distance_to(modes, k, limit);
   return limit;
 }
 

@@ -80,8 +80,8 @@ void print(const std::string& name, Row row) {
   const auto at = [&](double part) {
     return row.times.empty() ? 0 : 1e3 * row.times[static_cast<std::size_t>(part * double(row.times.size() - 1))];
   };
-  fmt::print("{:<10} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>10.1f} {:>10.1f}\n", name, row.scenes, row.solved, row.proven,
-             row.open, row.hard, row.wrong, at(0.5), at(1));
+  fmt::print("{:<10} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>10.1f} {:>10.1f}\n", name, row.scenes, row.solved,
+             row.proven, row.open, row.hard, row.wrong, at(0.5), at(1));
 }
 
 int property(const Settings& settings) {

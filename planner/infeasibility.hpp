@@ -4,11 +4,12 @@
 // polygon of the COMs that such a stance allows: reach of both, and R_SS(W) of every wrench cone that feet anywhere on
 // the pieces can have (infeasibility_bounds.hpp). A transfer places a foot on a third piece from a COM of one pair and
 // lifts one at a COM of the next; each of the two COMs must be within reach of all three pieces, keep the clearance and
-// see the foot that moves. Joining pairs wherever both COMs may exist gives a graph that contains every plan: if the goal
-// is not reached in it, there is no plan. Where it is reached, the pieces on the doubtful transfers of the shortest ways
-// (those that their middles do not confirm) are halved, until the goal is cut off, or a way remains that the middles
-// confirm all along, or the limits are reached (counterexample-guided refinement). Intervals of footholds and polygons of
-// COMs were chosen over boxes in all coordinates because every bound used is then exact but for the width of the pieces.
+// see the foot that moves. Joining pairs wherever both COMs may exist gives a graph that contains every plan: if the
+// goal is not reached in it, there is no plan. Where it is reached, the pieces on the doubtful transfers of the
+// shortest ways (those that their middles do not confirm) are halved, until the goal is cut off, or a way remains that
+// the middles confirm all along, or the limits are reached (counterexample-guided refinement). Intervals of footholds
+// and polygons of COMs were chosen over boxes in all coordinates because every bound used is then exact but for the
+// width of the pieces.
 //
 // Guarantee: what is returned is proven, for every plan that gaits::verify would accept: all bounds are drawn out by
 // `slack` (verifier slack and rounding together). Nothing returned means nothing: the relaxation forgets which leg is
@@ -26,7 +27,8 @@
 namespace surefoot::planner {
 
 struct ProofLimits {
-  std::uint64_t work = 600000;  ///< bounds evaluated, 0.5 to 1 us each; for the reason of what is proven, up to twice that
+  /// Bounds evaluated, 0.5 to 1 us each; up to twice as many again for the reason of what is proven.
+  std::uint64_t work = 600000;
   double finest = 1.0 / 512;    ///< least length of a piece, relative to reach_max
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
@@ -40,7 +42,8 @@ enum class Obstacle {
 
 struct Impossibility {
   Obstacle obstacle = Obstacle::barrier;
-  std::optional<std::pair<double, double>> x, y;  ///< where [m]: between the feet that the start side and the goal reach
+  /// Where [m]: between the feet that the start and those that the goal can reach.
+  std::optional<std::pair<double, double>> x, y;
   std::string reason;        ///< a sentence: place, then the rules that suffice to forbid it, with their numbers
   std::uint64_t work = 0;    ///< bounds evaluated
 };

@@ -73,7 +73,8 @@ class MomentRange {
   /// Nearly one direction: only a force along it, shared in some way. Nearly opposite: any moment, to be safe.
   void combine_parallel(const Edge& k, const Edge& l, double size) {
     if (k.direction.dot(l.direction) < 0) return include(-infinity, infinity, 0);
-    if (k.direction.dot(force_) < 0 || std::abs(cross(k.direction, force_)) > 10 * parallel_sine * k.norm * size) return;
+    const double aside = std::abs(cross(k.direction, force_));
+    if (k.direction.dot(force_) < 0 || aside > 10 * parallel_sine * k.norm * size) return;
     include(size * std::min(k.lo / k.norm, l.lo / l.norm), size * std::max(k.hi / k.norm, l.hi / l.norm), size);
   }
 

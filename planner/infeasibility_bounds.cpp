@@ -69,7 +69,8 @@ const std::array<Vector2d, directions>& unit_directions() {
 // ---- sets of COMs -----------------------------------------------------------------------------------------------
 
 Bounds::Bounds(const gaits::Scene& scene, const Rules& rules) : scene_(scene), rules_(rules), box_(scene.disturbance) {
-  // Twice what the verifier allows, and the rounding of coordinates and arc lengths (an ulp or two each, few operations).
+  // Twice what the verifier allows, and the rounding of coordinates and arc lengths (an ulp or two each, few
+  // operations).
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   slack_ = 2 * gaits::verifier_slack * scene.robot.reach_max + rounding * greatest_coordinate(scene);
   const bool asks_box = scene.criterion == gaits::Criterion::robust || scene.criterion == gaits::Criterion::equilibrium;

@@ -2,11 +2,11 @@
 // Every set returned contains the set that the rules (and the verifier with its slack) allow; polygons are drawn out by
 // `slack`, so rounding cannot lose a COM.
 //
-// Balance of two pieces. The wrench that feet on pieces A and B must supply for f = (p, 1), q about the origin is
-// (f, c_x - p c_y + q) (theory section 3). For a fixed p the moments that the two cones can supply with force f form an
+// Balance of two pieces. The wrench that feet on pieces A and B must supply for f = (p, 1), q about the origin is (f,
+// c_x - p c_y + q) (theory section 3). For a fixed p the moments that the two cones can supply with force f form an
 // interval; over all positions on the pieces it lies between the extremes of a linear program in the four cone edges
-// whose moments are intervals: an end is attained on a pair of edges, or is infinite where the feet can squeeze the body
-// between them. So R_SS(W) lies in the strips lo(p) + nu <= c_x - p c_y <= hi(p) - nu, p = -kappa, kappa.
+// whose moments are intervals: an end is attained on a pair of edges, or is infinite where the feet can squeeze the
+// body between them. So R_SS(W) lies in the strips lo(p) + nu <= c_x - p c_y <= hi(p) - nu, p = -kappa, kappa.
 #pragma once
 
 #include <Eigen/Core>

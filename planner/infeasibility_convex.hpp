@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -11,6 +12,13 @@ namespace surefoot::planner::proof {
 class Convex {
  public:
   static constexpr int most = 48;
+  Convex() = default;
+  Convex(const Convex& other) : count_(other.count_) { std::copy_n(other.at_.begin(), count_, at_.begin()); }
+  Convex& operator=(const Convex& other) {
+    count_ = other.count_;
+    std::copy_n(other.at_.begin(), count_, at_.begin());
+    return *this;
+  }
   bool empty() const { return count_ == 0; }
   std::span<const Eigen::Vector2d> corners() const { return {at_.data(), static_cast<std::size_t>(count_)}; }
   void add(const Eigen::Vector2d& corner) { at_[static_cast<std::size_t>(count_++)] = corner; }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -16,8 +18,8 @@ using Interval = std::pair<double, double>;
 namespace {
 
 /// In the order in which it is tried to do without them: what is named in the end is what a reader expects first.
-constexpr bool Rules::*droppable[] = {&Rules::modes, &Rules::least_reach, &Rules::clearance,
-                                      &Rules::sight, &Rules::disturbance, &Rules::balance};
+constexpr bool Rules::*droppable[] = {&Rules::least_reach, &Rules::clearance, &Rules::sight, &Rules::disturbance,
+                                      &Rules::balance};
 
 class Explainer {
  public:
@@ -61,6 +63,7 @@ class Explainer {
   /// As few rules as will do.
   Rules sufficient() {
     Rules rules;
+    rules.modes = false;  // they play no part in what is excluded
     const std::uint64_t last = result_.work + whole_;
     for (const auto rule : droppable) {
       if (result_.work > last) break;
@@ -73,7 +76,8 @@ class Explainer {
 
   void place_at_start();
   void place_between(Graph& graph);
-  AlignedBox2d feet_of(const Graph& graph, const std::vector<int>& nodes, std::set<int>& stood_on) const;
+  std::set<int> feet_of(const Graph& graph, const std::vector<int>& nodes) const;
+  AlignedBox2d box_of(const std::set<int>& pieces) const;
   std::string place_words() const;
   std::string rule_words(const Rules& rules) const;
   std::string gap_words() const;
@@ -98,15 +102,26 @@ void Explainer::place_at_start() {
   result_.y = {box.min().y(), box.max().y()};
 }
 
-AlignedBox2d Explainer::feet_of(const Graph& graph, const std::vector<int>& nodes, std::set<int>& stood_on) const {
+std::set<int> Explainer::feet_of(const Graph& graph, const std::vector<int>& nodes) const {
+  std::set<int> pieces;
+  for (const int id : nodes) pieces.insert({graph.pair(id).first, graph.pair(id).second});
+  return pieces;
+}
+
+AlignedBox2d Explainer::box_of(const std::set<int>& pieces) const {
   AlignedBox2d box;
-  for (const int id : nodes)
-    for (const int piece : {graph.pair(id).first, graph.pair(id).second}) {
-      box.extend(pieces_.foot(piece).piece.a);
-      box.extend(pieces_.foot(piece).piece.b);
-      stood_on.insert(piece);
-    }
+  for (const int piece : pieces) {
+    box.extend(pieces_.foot(piece).piece.a);
+    box.extend(pieces_.foot(piece).piece.b);
+  }
   return box;
+}
+
+/// Those that are not among others; all if none is left.
+std::set<int> without(const std::set<int>& pieces, const std::set<int>& others) {
+  std::set<int> left;
+  std::set_difference(pieces.begin(), pieces.end(), others.begin(), others.end(), std::inserter(left, left.end()));
+  return left.empty() ? pieces : left;
 }
 
 double distance_between(const Piece& p, const Piece& q) {
@@ -126,13 +141,14 @@ Interval between(double a_low, double a_high, double b_low, double b_high) {
 }
 
 void Explainer::place_between(Graph& graph) {
-  std::set<int> start_feet, goal_feet;
-  const AlignedBox2d start = feet_of(graph, graph.reached(), start_feet);
-  const AlignedBox2d goal = feet_of(graph, graph.reached_from_goal(), goal_feet);
-  if (start.isEmpty() || goal.isEmpty()) return;
+  const std::set<int> start_feet = feet_of(graph, graph.reached());
+  const std::set<int> goal_feet = feet_of(graph, graph.reached_from_goal());
+  if (start_feet.empty() || goal_feet.empty() || graph.exhausted()) return;
+  const AlignedBox2d start = box_of(without(start_feet, goal_feet)), goal = box_of(without(goal_feet, start_feet));
   result_.x = between(start.min().x(), start.max().x(), goal.min().x(), goal.max().x());
   const bool apart = start.max().y() <= goal.min().y() || goal.max().y() <= start.min().y();
-  if (apart || !scene_.goal.com_x) result_.y = between(start.min().y(), start.max().y(), goal.min().y(), goal.max().y());
+  if (apart || !scene_.goal.com_x)
+    result_.y = between(start.min().y(), start.max().y(), goal.min().y(), goal.max().y());
   constexpr std::size_t few = 2000;  // pairs of feet are looked at
   if (start_feet.size() > few || goal_feet.size() > few) return;
   gap_ = std::numeric_limits<double>::infinity();
@@ -160,7 +176,8 @@ std::string Explainer::place_words() const {
   if (by_height) return words + interval_words("y", *result_.y) + ": ";
   if (!result_.x) return words.empty() ? "" : words.substr(0, words.size() - 2) + ": ";
   words += interval_words("x", *result_.x);
-  if (result_.y && !flat) words += " and " + interval_words("y", *result_.y);
+  const bool upright = number(result_.x->first) == number(result_.x->second);
+  if (result_.y && !flat && upright) words += " and " + interval_words("y", *result_.y);
   return words + ": ";
 }
 
@@ -203,7 +220,6 @@ std::string Explainer::rule_words(const Rules& rules) const {
     demands.push_back(fmt::format("balances every disturbance (kappa {}, nu {} m){}", number(scene_.disturbance.kappa),
                                   number(scene_.disturbance.nu), friction_words()));
   if (rules.balance && !rules.disturbance) demands.push_back("balances the weight" + friction_words());
-  if (rules.modes) demands.push_back("excludes every contact mode but rest");
   if (rules.sight) demands.push_back("sees the foot that is placed or lifted");
   if (rules.clearance && robot.clearance > 0)
     demands.push_back(fmt::format("keeps the clearance {}", number(robot.clearance)));

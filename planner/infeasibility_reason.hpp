@@ -1,5 +1,5 @@
-// Place and reason of an impossibility that is proven already: where the feet that the start and those that the goal can
-// reach end, and which rules suffice to keep them apart: one rule after the other is dropped where the proof holds
+// Place and reason of an impossibility that is proven already: where the feet that the start and those that the goal
+// can reach end, and which rules suffice to keep them apart: one rule after the other is dropped where the proof holds
 // without it on the same pieces. What is named in the end is therefore proven too.
 #pragma once
 

@@ -102,7 +102,8 @@ std::uint64_t Field::free_cells(std::int64_t i, std::int64_t j, std::uint64_t wa
     const int offset = static_cast<int>(column & (columns - 1)), length = std::min(columns - offset, columns - at);
     const std::uint64_t part = (wanted & run_of(at, at + length - 1)) >> at << offset;
     if (part != 0) {
-      Word& word = words_[static_cast<std::uint64_t>(word_column) << 32 ^ (static_cast<std::uint64_t>(j) & 0xffffffffu)];
+      const std::uint64_t low_half = static_cast<std::uint64_t>(j) & 0xffffffffu;
+      Word& word = words_[static_cast<std::uint64_t>(word_column) << 32 ^ low_half];
       for (std::uint64_t unknown = part & ~word.known; unknown != 0; unknown &= unknown - 1) {
         const int bit = std::countr_zero(unknown);
         if (is_free(word_column * columns + bit, j)) word.free |= std::uint64_t{1} << bit;

@@ -194,9 +194,9 @@ gaits::Scene two_segments(Dice& dice, double mu_first, double mu_second) {
     const double angle = dice.in(0, 2 * std::numbers::pi);
     chains.push_back({{a, a + 0.4 * Vector2d(std::cos(angle), std::sin(angle))}, {{mu, true}}});
   }
-  gaits::Scene scene{"", "", terrain::Terrain(std::move(chains)), {0.2, 0, 2, 0, {}}, {dice.in(0, 0.4), dice.in(0, 0.2)},
-                     gaits::Criterion::equilibrium, {}, {}, {}, {}};
-  return scene;
+  const stability::DisturbanceBox box{dice.in(0, 0.4), dice.in(0, 0.2)};
+  return {"", "", terrain::Terrain(std::move(chains)), {0.2, 0, 2, 0, {}}, box, gaits::Criterion::equilibrium, {}, {},
+          {}, {}};
 }
 
 /// How deep [m] a point lies inside a polygon; negative outside.
@@ -313,7 +313,8 @@ TEST_CASE("no placement that the rules allow is excluded by the bounds of pieces
         at[k] = scene.terrain.foothold_at(stretch.segment->chain, dice.in(stretch.s_begin, stretch.s_end));
         if (!at[k]) break;
         const double s = at[k]->s - stretch.segment->s_begin;
-        const double from = std::max(0.0, s - dice.in(0, 0.1)), to = std::min(stretch.segment->length, s + dice.in(0, 0.1));
+        const double from = std::max(0.0, s - dice.in(0, 0.1));
+        const double to = std::min(stretch.segment->length, s + dice.in(0, 0.1));
         feet[k] = {piece_of(*stretch.segment, from, to), all};
       }
       if (!at[0] || !at[1] || !at[2]) continue;

@@ -16,9 +16,9 @@ struct KnownPlan {
   gaits::Plan plan;
 };
 
-/// From a scene's text and a verified plan for it: the way back (from the last stance to the first COM); reach, clearance
-/// and goal drawn in to what the plan needs; disturbances raised to what it bears; no foothold but within `around` [m] of
-/// those of the plan; and all of these at once. Those that do not verify are left out.
+/// From a scene's text and a verified plan for it: the way back (from the last stance to the first COM); reach,
+/// clearance and goal drawn in to what the plan needs; disturbances raised to what it bears; no foothold but within
+/// `around` [m] of those of the plan; and all of these at once. Those that do not verify are left out.
 std::vector<KnownPlan> hard_scenes(const std::string& text, const gaits::Plan& plan, double around = 1e-3);
 
 }  // namespace surefoot::testing

@@ -267,7 +267,8 @@ std::string family_scene(Family family, double value) {
   if (b.vertices.empty() || family == Family::ceiling_height) to(2.5, 0);
   scene.chains = {a};
   if (!b.vertices.empty()) scene.chains.push_back(b);
-  scene.goal = within("x", x - (family == Family::gap_width ? -1.2 : 1.3), x - (family == Family::gap_width ? -1.7 : 0.8));
+  const double from = family == Family::gap_width ? x + 1.2 : x - 1.3;
+  scene.goal = within("x", from, from + 0.5);
   return scene.write();
 }
 

@@ -1,5 +1,6 @@
 // Random scenes as YAML text, many of them near the limit of what can be walked: for properties that hold for every
-// scene. Lengths are drawn in units of the greatest reach, so that gaps, steps and walls come out both passable and not.
+// scene. Lengths are drawn in units of the greatest reach, so that gaps, steps and walls come out both passable and
+// not.
 #pragma once
 
 #include <cstdint>

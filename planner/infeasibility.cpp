@@ -1,7 +1,6 @@
 #include "planner/infeasibility.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "planner/infeasibility_graph.hpp"
 #include "planner/infeasibility_reason.hpp"
@@ -17,12 +16,23 @@ namespace {
 /// Pieces at first: short enough that plain walking is told from what cannot be, long enough to be few.
 constexpr double coarsest = 0.25;  // relative to reach_max
 
+/// The verifier lets a start foot be a slack away: beside a vertex it may stand on the next segment.
+bool starts_at_vertex(const gaits::Scene& scene, double slack) {
+  return std::any_of(scene.start.feet.begin(), scene.start.feet.end(), [&](const auto& foot) {
+    if (!foot) return false;
+    const terrain::Segment& segment = scene.terrain.segment(foot->chain, foot->segment);
+    const double at = foot->s - segment.s_begin;
+    return at <= 2 * slack || at >= segment.length - 2 * slack;
+  });
+}
+
 }  // namespace
 
 std::optional<Impossibility> prove_infeasible(const gaits::Scene& scene, const ProofLimits& limits) {
   std::uint64_t work = 0;
   const Bounds bounds(scene, {});
-  if (!(bounds.slack() < limits.finest * bounds.reach())) return std::nullopt;  // coordinates too far out to tell
+  // Coordinates too far out to tell, or a start that is not quite known.
+  if (!(bounds.slack() < limits.finest * bounds.reach()) || starts_at_vertex(scene, bounds.slack())) return std::nullopt;
   Pieces pieces(scene, coarsest * bounds.reach(), bounds.reach() + bounds.slack());
   Graph graph(bounds, pieces, true, limits, work);
   while (!graph.exhausted()) {

@@ -69,10 +69,10 @@ const std::array<Vector2d, directions>& unit_directions() {
 // ---- sets of COMs -----------------------------------------------------------------------------------------------
 
 Bounds::Bounds(const gaits::Scene& scene, const Rules& rules) : scene_(scene), rules_(rules), box_(scene.disturbance) {
-  // Twice what the verifier allows, and the rounding of coordinates and arc lengths (an ulp or two each, few
-  // operations).
+  // Four times what the verifier allows (it is allowed for reach and for a start foot at once), and the rounding of
+  // coordinates and arc lengths (an ulp or two each, few operations).
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  slack_ = 2 * gaits::verifier_slack * scene.robot.reach_max + rounding * greatest_coordinate(scene);
+  slack_ = 4 * gaits::verifier_slack * scene.robot.reach_max + rounding * greatest_coordinate(scene);
   const bool asks_box = scene.criterion == gaits::Criterion::robust || scene.criterion == gaits::Criterion::equilibrium;
   if (!asks_box || !rules.disturbance) box_ = {0, 0};  // of other criteria only balance under gravity is taken for sure
 }
@@ -139,20 +139,23 @@ void Bounds::clip_to_goal(Convex& coms) const {
 /// points where the lines between the corners of two convex sets on either side of a line cut it span all such points.
 bool Bounds::hidden(std::span<const Vector2d> coms, const Foot& foot) const {
   const Piece& piece = foot.piece;
+  // Heights are wrong by `slack` at most. Where both exceed `margin`, the cut of a leg of length up to 2 reach is wrong
+  // by 2 reach slack / margin = margin / 8 at most.
+  const double margin = 4 * std::sqrt(reach() * slack_);
   for (const terrain::Segment* segment : foot.around) {
     if (segment == piece.segment) continue;
     const auto height = [&](const Vector2d& point) { return segment->normal.dot(point - segment->a); };
     const double at_a = height(piece.a), at_b = height(piece.b);
     const double side = at_a > 0 ? 1 : -1;
-    if (side * at_a <= slack_ || side * at_b <= slack_) continue;
+    if (side * at_a <= margin || side * at_b <= margin) continue;
     bool all = true;
     for (std::size_t i = 0; all && i < coms.size(); ++i) {
       const double here = height(coms[i]);
-      all = side * here < -slack_;
+      all = side * here < -margin;
       for (const auto& [end, at_end] : {std::pair(piece.a, at_a), std::pair(piece.b, at_b)}) {
         if (!all) break;
         const double cut = segment->tangent.dot(coms[i] + (end - coms[i]) * (here / (here - at_end)) - segment->a);
-        all = cut > slack_ && cut < segment->length - slack_;
+        all = cut > margin && cut < segment->length - margin;
       }
     }
     if (all) return true;
@@ -213,7 +216,7 @@ std::pair<Convex, Convex> halves(const Convex& coms, const Vector2d& centre) {
   return parts;
 }
 
-constexpr std::uint64_t most_polygons = 256;  ///< of one demand; what is left then counts as not excluded
+constexpr std::uint64_t most_polygons = 64;  ///< of one demand; what is left then counts as not excluded
 
 }  // namespace
 

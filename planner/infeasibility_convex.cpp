@@ -12,6 +12,7 @@ void Convex::clip(const Vector2d& direction, const Vector2d& origin, double boun
   bool all_in = true;
   for (int i = 0; i < count_; ++i) {
     height[i] = direction.dot(at_[i] - origin) - bound;
+    if (!std::isfinite(height[i])) return;  // beyond the doubles: nothing is known, nothing is cut
     all_in &= height[i] <= 0;
   }
   if (all_in || count_ + 1 >= most) return;  // too many corners: left as it is, which contains the part wanted

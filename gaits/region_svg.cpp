@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 10> shades{"#f6c98f", "#a9cdea", "#e8b4cf
                                                   "#c7c3e6", "#d2b48c", "#bfd9a0", "#f2d5d5", "#b9d5d8"};
 constexpr double left = 30, top = 110, gap = 26, key_width = 372;  // [px]
 constexpr double widest = 680, tallest = 620, bottom_room = 78;   // [px]
+constexpr double contact_radius = 7.5;  // [px]: the contact's name stands inside
 constexpr std::size_t most_in_key = 24;
 
 AlignedBox2d bounds_of(const Polyline& points) {
@@ -170,10 +171,9 @@ class Picture {
       };
       canvas_.polygon({at, edge(1), edge(-1)}, {.fill = "#999", .opacity = 0.3}, "cone");
       for (const double sign : {1.0, -1.0}) canvas_.line(at, edge(sign), {.stroke = "#333", .width = 1.1});
-      canvas_.circle(at, 4.2, {.fill = ink});
-      const Vector2d beneath = at + 17 * Vector2d(-n.x(), n.y()) + Vector2d(0, 5);
-      canvas_.text(beneath, i < figure_.contact_names.size() ? figure_.contact_names[i] : std::to_string(i + 1),
-                   {.size = 13, .anchor = "middle", .bold = true, .halo = true});
+      canvas_.circle(at, contact_radius, {.fill = ink});
+      canvas_.text(at + Vector2d(0, 4), i < figure_.contact_names.size() ? figure_.contact_names[i] : std::to_string(i + 1),
+                   {.size = 11, .colour = "#fff", .anchor = "middle", .bold = true});
     }
   }
 
@@ -201,6 +201,7 @@ class Picture {
   /// Inside the cell where there is room, else beside it on a leader.
   void numbers() {
     std::vector<Vector2d> taken;
+    for (const auto& contact : figure_.contacts) taken.push_back(view_(contact.position));
     for (std::size_t k = 0; k < std::min(region_.cells.size(), most_in_key); ++k) {
       const RegionCell& cell = region_.cells[k];
       const std::optional<Vector2d> shown = shown_point(cell);
@@ -264,8 +265,8 @@ class Picture {
     y += 4;
     for (const char* words :
          {"One letter per contact, in their order:", "F breaks away, R rolls or stays, U slides along +t, W along -t;",
-          "t is the contact's normal turned clockwise.", "Grey fans: friction cones.  Green: where R_SS ends.",
-          "Thin lines: where a mode becomes possible."}) {
+          "t is the contact's normal turned clockwise.", "Black discs: contacts; grey fans: their friction cones.",
+          "Green line: where R_SS ends; thin: where a mode begins."}) {
       canvas_.text({x, y}, words, {.size = 10.5, .colour = faint});
       y += 15;
     }

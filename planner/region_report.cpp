@@ -33,6 +33,7 @@ Tree cell_tree(const RegionCell& cell) {
   tree["modes"] = mode_names(cell);
   tree["area"] = cell.area;
   tree["inside"] = {cell.inside.x(), cell.inside.y()};
+  if (!cell.confirmed) tree["confirmed"] = false;
   tree["polygon"] = cell.rings.empty() ? Tree::array() : points(cell.rings.front());
   for (std::size_t k = 1; k < cell.rings.size(); ++k) tree["holes"].push_back(points(cell.rings[k]));
   return tree;
@@ -110,6 +111,7 @@ std::string region_to_json(const gaits::RegionFigure& figure, const Region& regi
   tree["equilibrium_area"] = region.equilibrium_area;
   tree["robust_area"] = region.robust_area;
   tree["area_error"] = region.area_error;
+  tree["cells_error"] = region.cells_error;
   tree["window"] = nullptr;
   if (region.window)
     tree["window"] = {region.window->min().x(), region.window->min().y(), region.window->max().x(), region.window->max().y()};
@@ -151,7 +153,8 @@ std::string region_to_text(const gaits::RegionFigure& figure, const Region& regi
                  area(region.equilibrium_area, region.area_error));
   fmt::format_to(put, "{:<8} and sure to stay at rest {}, {} of it\n", gaits::robust_name(figure.box),
                  area(region.robust_area, region.area_error), percent(region.robust_area, region.equilibrium_area));
-  fmt::format_to(put, "         each area to within {:.1g} m^2\n", region.area_error);
+  fmt::format_to(put, "         both to within {:.1g} m^2, cells together to within {:.1g} m^2: proved\n", region.area_error,
+                 region.cells_error);
   if (region.window)
     fmt::format_to(put, "         clipped to x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g} m\n", region.window->min().x(),
                    region.window->max().x(), region.window->min().y(), region.window->max().y());

@@ -3,6 +3,7 @@
 // cells.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct SweepLine {
   std::vector<Crossing> at;
   bool uncertain = false;
 };
+
+inline bool same_curve(const Crossing& x, const Crossing& y) { return x.curve == y.curve && x.enter == y.enter; }
+inline bool same(const SweepLine& x, const SweepLine& y) {
+  return x.begin_modes == y.begin_modes && x.lo_edge == y.lo_edge && x.hi_edge == y.hi_edge &&
+         x.at.size() == y.at.size() && std::equal(x.at.begin(), x.at.end(), y.at.begin(), same_curve);
+}
 
 /// Curve 0 is the lower edge, 1..n the crossings, n + 1 the upper edge; piece k lies between curves k and k + 1.
 struct Slab {
@@ -52,6 +59,8 @@ class Sweep {
   static constexpr double tie = 1e-9;
 
  private:
+  static constexpr double inset = 1e-8;  // of the extent: how far beside an event lines are solved
+  static constexpr double least_slab = 4 * inset;
   struct Strip {
     double a = 0, b = 0, lo = 0, hi = 0;
     std::uint32_t active = 0;  // modes not excluded

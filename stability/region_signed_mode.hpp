@@ -1,0 +1,143 @@
+// The rows of a mode on a rectangle with the sign of D given, and the certificates of region_rectangle.hpp on them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "stability/region_margin.hpp"
+#include "stability/region_rectangle.hpp"
+
+namespace surefoot::stability {
+
+using Conic = Bivariate<2>;
+
+/// A row on the rectangle, times the sign of D.
+struct LocalRow {
+  Form<Conic> form;
+  double error = 0;  // of the row's value anywhere on the rectangle and on W
+};
+
+inline Conic at_wrench(const LocalRow& row, double u, double w) {
+  Conic f;
+  for (int k = 0; k < f.size; ++k) f.c[k] = row.form.one.c[k] + u * row.form.u.c[k] + w * row.form.w.c[k];
+  return f;
+}
+inline Form<double> at_point(const LocalRow& row, double sigma, double tau) {
+  const auto value = [&](const Conic& f) {
+    return f.c[0] + sigma * (f.c[1] + sigma * f.c[3] + tau * f.c[4]) + tau * (f.c[2] + tau * f.c[5]);
+  };
+  return {value(row.form.u), value(row.form.one), value(row.form.w)};
+}
+
+template <int D>
+double value_at(const Bivariate<D>& f, double sigma, double tau) {
+  double sum = 0;
+  for (int n = D; n >= 0; --n) {  // by powers of tau
+    double inner = 0;
+    for (int i = D - n; i >= 0; --i) inner = inner * sigma + f.c[place(i, n)];
+    sum = sum * tau + inner;
+  }
+  return sum;
+}
+
+class SignedMode {
+ public:
+  /// `denominator`: D where it changes sign; rows then count only where sign * D > 0.
+  SignedMode(const RegionMode& mode, const Rectangle& rectangle, double sign, std::span<const Conic> edges,
+             const Conic* denominator);
+
+  ModeThere decide() const;
+
+ private:
+  Margin margin_at(double sigma, double tau) const;
+
+  /// f < 0 on the rectangle within the polygon, but for a strip along an edge.
+  bool negative(const Conic& f, double error, double& strip) const;
+  static constexpr double widest_strip = 1e-6;
+
+  bool witnessed(double u, double w, double& strip) const;
+
+  bool excluded(const Margin& m, double& strip) const;
+
+  /// The basis where the boundary is near the middle: the curve of the basis in the middle is followed to its zero.
+  Margin margin_on_curve(Margin m) const;
+
+  Poly2 jet(const CurveId& id, double sigma, double tau) const;
+
+  // ---- one curve --------------------------------------------------------------------------------------------------
+
+  /// On the sides that a basis lies on; or within.
+  bool single_curve(const CurveId& id, ModeThere& there) const;
+
+  /// A row on a side: e + g times the free coordinate.
+  struct SideRow {
+    Conic e, g, opposite;  // opposite: e on the opposite side
+  };
+  SideRow on_side(int k, const CurveId& id) const;
+  /// Bounds |f g| from above, for error bounds of products of rows.
+  double size(int k) const;
+  double product_error(int i, int j) const { return 4 * (row_[i].error * size(j) + row_[j].error * size(i)); }
+
+  /// Two rows on a side, i with a rising slot, j with a falling one; none unless they are so on all of the rectangle.
+  struct SidePair {
+    int up = 0, down = 0;
+    SideRow i, j;
+    /// |g_j| row_i + |g_i| row_j, constant along the side, and the same on the opposite side
+    Bivariate<4> sum, opposite;
+  };
+  std::optional<SidePair> side_pair(const CurveId& id) const;
+  /// On a side the rows that can vanish bound the free coordinate from below (slot g > 0) or from above: some point is
+  /// left iff every bound from below is less than every bound from above, 1 and -1 among them. Of these conditions all
+  /// are shown to hold but one at most, and where that fails, the rows exclude the mode on all of W.
+  bool on_side(int side, ModeThere& there) const;
+  struct SideConditions {
+    const SignedMode& mode;
+    CurveId side;
+    std::array<SideRow, 6> row{};
+    std::array<int, 6> rising{}, falling{};
+    int risings = 0, fallings = 0;
+    std::optional<CurveId> open;  ///< the one not shown to hold
+    signed char sign = 1;         ///< it holds where sign * curve > 0
+    SideConditions(const SignedMode& m, int at) : mode(m), side{CurveId::side, -1, 0, 0, -1, static_cast<signed char>(at)} {}
+
+    bool collect();
+    bool pair_holds(int i, int j);
+    bool leave_open(const CurveId& id, signed char holds) {
+      if (open) return false;
+      open = id;
+      sign = holds;
+      return true;
+    }
+    CurveId corner(int k, bool high) const {
+      const int end = side.place & 1, free = high ? 1 : 0;
+      const int at = side.place < 2 ? end + 2 * free : free + 2 * end;
+      return {CurveId::corner, -1, static_cast<signed char>(k), -1, -1, static_cast<signed char>(at)};
+    }
+  };
+  bool fails_everywhere(const CurveId& id) const;
+  /// By the multipliers of the basis as functions of the COM.
+  bool excluded_by_basis(const CurveId& id) const;
+  /// All determinants of two rows of a mode have the factor D: for a slide with u = M^-1 s, G_A ~ M^-1 (u x (A x N)),
+  ///   G_A x G_B ~ D (N . (A x B)) s    and    G_A x G_N ~ D M (A x N),
+  /// for two slides likewise D s and D M c. What is left after division is linear in the COM; where it keeps its sign,
+  /// rows that close up on D = 0 leave a channel there, or none. Feasible everywhere or nowhere where D > 0.
+  bool beside_denominator(ModeThere& there) const;
+  bool beside_denominator(const CurveId& id, ModeThere& there) const;
+  /// f > 0 on the rectangle; with a denominator, where that is positive.
+  bool positive(const Bivariate<4>& f, double error) const;
+  /// Multipliers of three rows, all of one sign; 0 if they are not on all of the rectangle.
+  double multipliers(const int at[3], std::array<Bivariate<4>, 3>& y) const;
+  bool excluded_inside(const CurveId& id) const;
+  bool within(const CurveId& id, ModeThere& there) const;
+  /// Where rows k + 1 and k + 2 of the three vanish: u = x / y_k, w = z / y_k.
+  bool vertex_free_of_others(const int at[3], int k, const Bivariate<4>& given, double sign) const;
+
+  std::array<LocalRow, 6> row_;
+  std::span<const Conic> edges_;
+  std::optional<Conic> denominator_;
+  int count_;
+  double sign_;
+};
+
+}  // namespace surefoot::stability

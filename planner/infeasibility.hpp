@@ -26,11 +26,19 @@
 
 namespace surefoot::planner {
 
+/// Where to look for a barrier: a COM that gets from one side to the other passes all that lies between.
+struct ProofWindow {
+  double from = 0, to = 0;  ///< x [m]; every first COM lies before `from`, the goal after `to` (to < from: leftwards)
+};
+
 struct ProofLimits {
   /// Bounds evaluated, 0.5 to 1 us each; up to twice as many again for the reason of what is proven.
   std::uint64_t work = 600000;
   double finest = 1.0 / 512;    ///< least length of a piece, relative to reach_max
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  /// Long terrain: look no further than this. What is proven is that the window cannot be crossed; its work does not
+  /// depend on what lies outside. Nothing is proven where start or goal do not lie on either side of it.
+  std::optional<ProofWindow> window;
 };
 
 /// What the plan fails at.

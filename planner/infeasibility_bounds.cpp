@@ -68,13 +68,19 @@ const std::array<Vector2d, directions>& unit_directions() {
 
 // ---- sets of COMs -----------------------------------------------------------------------------------------------
 
-Bounds::Bounds(const gaits::Scene& scene, const Rules& rules) : scene_(scene), rules_(rules), box_(scene.disturbance) {
+Bounds::Bounds(const gaits::Scene& scene, const Rules& rules, const std::optional<ProofWindow>& window)
+    : scene_(scene), rules_(rules), box_(scene.disturbance), goal_(scene.goal), window_(window) {
   // Four times what the verifier allows (it is allowed for reach and for a start foot at once), and the rounding of
   // coordinates and arc lengths (an ulp or two each, few operations).
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   slack_ = 4 * gaits::verifier_slack * scene.robot.reach_max + rounding * greatest_coordinate(scene);
   const bool asks_box = scene.criterion == gaits::Criterion::robust || scene.criterion == gaits::Criterion::equilibrium;
   if (!asks_box || !rules.disturbance) box_ = {0, 0};  // of other criteria only balance under gravity is taken for sure
+  if (!window) return;
+  const double step = 2 * (reach() + 2 * slack_), way = window->from < window->to ? step : -step;
+  entry_ = std::minmax({window->from - way, window->from});
+  goal_.com_x = std::minmax({window->to, window->to + way});
+  goal_.com_y.reset();
 }
 
 Convex Bounds::reachable(const Piece& first, const Piece& second) const {
@@ -123,14 +129,29 @@ void Bounds::clip_to_sight(Convex& coms, const Piece& piece) const {
   if (rules_.sight && !coms.empty()) coms.clip(-piece.segment->normal, piece.segment->a, slack_);
 }
 
+namespace {
+
+void clip_to_interval(Convex& coms, const std::optional<std::pair<double, double>>& interval, const Vector2d& axis,
+                      double slack) {
+  if (!interval || coms.empty()) return;
+  coms.clip(axis, interval->second * axis, slack);
+  if (!coms.empty()) coms.clip(-axis, interval->first * axis, slack);
+}
+
+}  // namespace
+
 void Bounds::clip_to_goal(Convex& coms) const {
-  const auto clip = [&](const auto& interval, const Vector2d& axis) {
-    if (!interval || coms.empty()) return;
-    coms.clip(axis, interval->second * axis, slack_);
-    if (!coms.empty()) coms.clip(-axis, interval->first * axis, slack_);
-  };
-  clip(scene_.goal.com_x, Vector2d::UnitX());
-  clip(scene_.goal.com_y, Vector2d::UnitY());
+  clip_to_interval(coms, goal_.com_x, Vector2d::UnitX(), slack_);
+  clip_to_interval(coms, goal_.com_y, Vector2d::UnitY(), slack_);
+}
+
+void Bounds::clip_to_entry(Convex& coms) const { clip_to_interval(coms, entry_, Vector2d::UnitX(), slack_); }
+
+bool Bounds::outside(const Convex& coms) const {
+  if (!entry_) return false;
+  const auto box = coms.box();
+  const double low = std::min(window_->from, goal_.com_x->first), high = std::max(window_->from, goal_.com_x->second);
+  return box.max().x() < low - slack_ || box.min().x() > high + slack_;
 }
 
 // ---- COMs that meet a demand ------------------------------------------------------------------------------------

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "gaits/scene.hpp"
+#include "planner/infeasibility.hpp"
 #include "planner/infeasibility_convex.hpp"
 #include "planner/infeasibility_region.hpp"
 
@@ -65,11 +66,17 @@ struct Demand {
 
 class Bounds {
  public:
-  Bounds(const gaits::Scene& scene, const Rules& rules);
+  /// With a window: the goal is to get beyond it, by way of COMs within it.
+  Bounds(const gaits::Scene& scene, const Rules& rules, const std::optional<ProofWindow>& window = {});
 
   double slack() const { return slack_; }  ///< [m]
   double reach() const { return scene_.robot.reach_max; }
   const gaits::Scene& scene() const { return scene_; }
+  const gaits::Goal& goal() const { return goal_; }
+  /// Where the last COM before the window lies (no two COMs of one step are further apart than two reaches).
+  std::optional<std::pair<double, double>> entry() const { return entry_; }
+  /// A stance with such COMs has no part in crossing the window.
+  bool outside(const Convex& coms) const;
 
   /// COMs within reach of both pieces. Empty: none.
   Convex reachable(const Piece& first, const Piece& second) const;
@@ -79,6 +86,7 @@ class Bounds {
   void clip_to_reach(Convex& coms, const Piece& piece) const;
   void clip_to_sight(Convex& coms, const Piece& piece) const;
   void clip_to_goal(Convex& coms) const;
+  void clip_to_entry(Convex& coms) const;
 
   /// The parts of the region in which some COM of the polygon may meet the demand with the first two feet as stance
   /// (bits); for a part that is not named there is none, whatever footholds on the pieces are taken. Decides by halving
@@ -100,6 +108,9 @@ class Bounds {
   Rules rules_;
   stability::DisturbanceBox box_;
   double slack_;
+  gaits::Goal goal_;
+  std::optional<ProofWindow> window_;
+  std::optional<std::pair<double, double>> entry_;
 };
 
 }  // namespace surefoot::planner::proof

@@ -40,6 +40,11 @@ bool Graph::spend() {
 // ---- nodes ------------------------------------------------------------------------------------------------------
 
 void Graph::make_starts() {
+  if (bounds_.entry()) {
+    starts_ = nodes_in(bounds_.entry(), {}, [&](Pair& pair) { return parts_of_entry(pair); });
+    return;
+  }
+  if (!starts_.empty()) return;
   const gaits::Start& start = bounds_.scene().start;
   for (int a = 0; a < gaits::leg_count; ++a)
     for (int b = a + 1; b < gaits::leg_count; ++b) {
@@ -72,7 +77,7 @@ void Graph::make_start(const terrain::Foothold& first, const terrain::Foothold& 
 }
 
 int Graph::add(Pair pair) {
-  pair.to_goal = bounds_.scene().goal.distance(pair.coms.centre());
+  pair.to_goal = bounds_.goal().distance(pair.coms.centre());
   pairs_.push_back(std::move(pair));
   return static_cast<int>(pairs_.size()) - 1;
 }
@@ -200,25 +205,41 @@ void Graph::renew_thirds(Pair& pair) {
   pair.thirds = std::move(kept);
 }
 
-std::vector<int> Graph::goal_nodes() {
-  const AlignedBox2d all = grown(bounds_.scene().terrain.bounds(), 2 * bounds_.reach());
-  AlignedBox2d box = all;
-  const gaits::Goal& goal = bounds_.scene().goal;
-  if (goal.com_x) box.min().x() = goal.com_x->first, box.max().x() = goal.com_x->second;
-  if (goal.com_y) box.min().y() = goal.com_y->first, box.max().y() = goal.com_y->second;
+unsigned Graph::parts_of_entry(Pair& pair) {
+  if (pair.entry) return *pair.entry;
+  pair.entry = 0;
+  if (!spend()) return 0;
+  Convex coms = pair.coms;
+  bounds_.clip_to_entry(coms);
+  const std::array feet{&pieces_.foot(pair.first), &pieces_.foot(pair.second)};
+  pair.entry = bounds_.may_hold(coms, {feet, {}}, pair.region, finest_for({pair.first, pair.second}), work_);
+  return *pair.entry;
+}
+
+template <class Parts>
+std::vector<int> Graph::nodes_in(const std::optional<std::pair<double, double>>& x,
+                                 const std::optional<std::pair<double, double>>& y, Parts&& parts) {
+  AlignedBox2d box = grown(bounds_.scene().terrain.bounds(), 2 * bounds_.reach());
+  if (x) box.min().x() = x->first, box.max().x() = x->second;
+  if (y) box.min().y() = y->first, box.max().y() = y->second;
   std::vector<int> near, found;
   pieces_.in_box(grown(box, bounds_.reach() + bounds_.slack()), near);
   for (std::size_t i = 0; i < near.size() && !exhausted_; ++i)
     for (std::size_t j = i; j < near.size() && !exhausted_; ++j) {
       const Piece &a = pieces_.foot(near[i]).piece, &b = pieces_.foot(near[j]).piece;
-      if ((a.a - b.a).norm() > 2 * bounds_.reach() + a.length() + b.length() + bounds_.slack()) continue;
+      if ((a.a - b.a).norm() > 2 * bounds_.reach() + a.length() + b.length() + 4 * bounds_.slack()) continue;
       const int id = pair_of(near[i], near[j]);
       if (id < 0) continue;
-      const unsigned parts = ways_to_goal(pairs_[id]).possible;
+      const unsigned here = parts(pairs_[id]);
       for (int part = 0; part < most_parts; ++part)
-        if (parts >> part & 1) found.push_back(node_of(id, part));
+        if (here >> part & 1) found.push_back(node_of(id, part));
     }
   return found;
+}
+
+std::vector<int> Graph::goal_nodes() {
+  const gaits::Goal& goal = bounds_.goal();
+  return nodes_in(goal.com_x, goal.com_y, [&](Pair& pair) { return ways_to_goal(pair).possible; });
 }
 
 }  // namespace surefoot::planner::proof

@@ -74,6 +74,7 @@ struct Pair {
   bool starts = false;         ///< a first stance: both legs are visible, and the COM is the given one
   bool listed = false;
   std::vector<Third> thirds;   ///< pieces on which a foot may be placed or lifted from this stance
+  std::optional<unsigned> entry;  ///< parts in which the COM may be the last before the window
   std::optional<Ways> goal;    ///< the COM may lie in the goal
   double to_goal = 0;          ///< [m] guides the search
 };
@@ -118,6 +119,11 @@ class Graph {
   static int node_of(int pair, int part) { return pair * most_parts + part; }
   static unsigned part_of(int node) { return 1u << (node % most_parts); }
   void make_starts();
+  /// Nodes with a COM in the box, as `parts` says for a pair.
+  template <class Parts>
+  std::vector<int> nodes_in(const std::optional<std::pair<double, double>>& x,
+                            const std::optional<std::pair<double, double>>& y, Parts&& parts);
+  unsigned parts_of_entry(Pair& pair);
   void make_start(const terrain::Foothold& first, const terrain::Foothold& second);
   int pair_of(int first, int second);
   int add(Pair pair);

@@ -24,17 +24,17 @@ constexpr bool Rules::*droppable[] = {&Rules::least_reach, &Rules::clearance, &R
 class Explainer {
  public:
   Explainer(const gaits::Scene& scene, Pieces& pieces, const ProofLimits& limits, std::uint64_t work)
-      : scene_(scene), pieces_(pieces), limits_(limits), whole_(limits.work), full_(scene, {}) {
+      : scene_(scene), pieces_(pieces), limits_(limits), whole_(limits.work), full_(scene, {}, limits.window) {
     result_.work = work;
   }
 
   Impossibility run() {
     allot(whole_);
     Graph graph(full_, pieces_, false, limits_, result_.work);
-    if (!graph.has_start()) {
+    if (!limits_.window && !graph.has_start()) {
       result_.obstacle = Obstacle::start;
       place_at_start();
-    } else if (graph.goal_nodes().empty() && !graph.exhausted()) {
+    } else if (!limits_.window && graph.goal_nodes().empty() && !graph.exhausted()) {
       result_.obstacle = Obstacle::goal;
       result_.x = scene_.goal.com_x;
       result_.y = scene_.goal.com_y;
@@ -51,7 +51,7 @@ class Explainer {
   void allot(std::uint64_t share) { limits_.work = result_.work + share; }
   bool impossible(const Rules& rules) {
     allot(whole_ / 3);
-    const Bounds bounds(scene_, rules);
+    const Bounds bounds(scene_, rules, limits_.window);
     Graph graph(bounds, pieces_, false, limits_, result_.work);
     switch (result_.obstacle) {
       case Obstacle::start: return !graph.has_start();

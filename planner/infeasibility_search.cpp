@@ -68,11 +68,14 @@ void Graph::spread(Marks& marks, const std::vector<std::pair<int, int>>& from, A
     const int verdict = admit(entry.node, entry.cost);
     if (verdict < 0) return;
     if (verdict == 0) continue;
-    edges(entry.node, [&](int next, bool doubtful, int) { offer(next, entry.cost + (doubtful ? 1 : 0)); });
+    edges(entry.node, [&](int next, bool doubtful, int) {
+      if (!bounds_.outside(pair(next).coms)) offer(next, entry.cost + (doubtful ? 1 : 0));
+    });
   }
 }
 
 std::optional<int> Graph::search() {
+  make_starts();
   forward_.clear();
   std::optional<int> least;
   spread(forward_, with_cost(starts_, 0), [&](int id, int cost) {

@@ -129,6 +129,21 @@ void bar_other_footholds(Scene& scene, Plan& plan, double around) {
 
 }  // namespace
 
+std::pair<double, double> crossing(const Scene& scene) {
+  constexpr double aside = 1e-3;  // [m]
+  if (!scene.goal.com_x) return {0, 0};
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto& foot : scene.start.feet) {
+    if (!foot) continue;
+    low = std::min(low, foot->position.x() - scene.robot.reach_max);
+    high = std::max(high, foot->position.x() + scene.robot.reach_max);
+  }
+  if (scene.start.com) low = high = scene.start.com->x();
+  if (high + aside < scene.goal.com_x->first) return {high + aside, scene.goal.com_x->first};
+  if (low - aside > scene.goal.com_x->second) return {low - aside, scene.goal.com_x->second};
+  return {0, 0};
+}
+
 std::vector<KnownPlan> hard_scenes(const std::string& text, const Plan& plan, double around) {
   std::vector<KnownPlan> found;
   const auto add = [&](const std::string& what, auto&&... changes) {

@@ -1,115 +1,36 @@
-// Area of R(W): error against time for three methods (grid of oracle calls, certified quadtree, sweep), as CSV on
-// stdout.
+// Area of R(W): error against time for five methods, as CSV on stdout.
 //   bench_region                  the postures of theory section 9
 //   bench_region --random N       instead: areas of N random postures against grids of oracle calls, within the grids'
-//   error
-// Errors are against the sweep at its finest, whose own bound is in the last column.
+//                                 error and the stated one; times
+//   bench_region --extremes [N]   instead: the catalogue of extreme postures, every Nth: time and stated error by group
+// Errors are against an integral of the oracle's verdicts (reference_area), which shares nothing with the methods; its
+// own error is in the last column.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/region_methods.hpp"
 #include "stability/region.hpp"
-#include "stability/region_rectangle.hpp"
+#include "tests/support/extreme_cases.hpp"
+#include "tests/support/region_reference.hpp"
 #include "tests/support/sample_posture.hpp"
 
 namespace {
 
+using namespace surefoot::bench;
 using namespace surefoot::stability;
-using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
-struct Stance {
-  std::string name;
-  std::vector<Contact> contacts;
-  double rho = 0;
-  DisturbanceBox box;
-};
-
-AlignedBox2d bounds_of(const RegionPolygon& polygon) {
-  AlignedBox2d box;
-  for (const Vector2d& p : polygon) box.extend(p);
-  return box;
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+  return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
-
-struct Area {
-  double value = 0, error = 0;  // error: the method's own
-};
-
-/// Oracle calls at the corners of an n x n grid; cells whose corners differ are in doubt.
-Area by_grid(const RobustOracle& oracle, const AlignedBox2d& box, int n) {
-  const Vector2d step = box.sizes() / n;
-  std::vector<char> before(static_cast<std::size_t>(n + 1)), now(before.size());
-  Area area;
-  for (int i = 0; i <= n; ++i) {
-    for (int k = 0; k <= n; ++k)
-      now[static_cast<std::size_t>(k)] = oracle.robust(box.min() + Vector2d(step.x() * i, step.y() * k));
-    for (std::size_t k = 0; i > 0 && k < static_cast<std::size_t>(n); ++k) {
-      const int inside = before[k] + before[k + 1] + now[k] + now[k + 1];
-      area.value += inside / 4.0;
-      area.error += inside % 4 != 0 ? 0.5 : 0;
-    }
-    before.swap(now);
-  }
-  return {area.value * step.prod(), (area.error + 2) * step.prod()};
-}
-
-/// Squares excluded for all modes by certificates, or refused for one; what is left at the last depth counts half.
-class Quadtree {
- public:
-  Quadtree(const Stance& stance, const AlignedBox2d& box)
-      : posture_(stance.contacts, stance.rho), wrenches_{{}, stance.box.kappa, stance.box.nu},
-        modes_(posture_, wrenches_, box.center(), Vector2d::UnitX()), planes_(equilibrium_half_planes(posture_, wrenches_)),
-        centre_(box.center()), half_(0.5 * box.sizes()) {}
-  Area area(int depth) {
-    found_ = {};
-    // modes_ has e_t = x, e_s = -y.
-    visit(0, 0, half_.y(), half_.x(), depth);
-    return found_;
-  }
-
- private:
-  void visit(double s, double t, double ds, double dt, int depth) {
-    const double size = 4 * ds * dt;
-    bool inside = true;
-    const Vector2d x = modes_.position(s, t);
-    for (const LabelledHalfPlane& half : planes_) {
-      const Vector2d& n = half.plane.normal;
-      const double value = n.dot(x) + half.plane.offset, spread = std::abs(n.x()) * dt + std::abs(n.y()) * ds;
-      if (value <= -spread) return;
-      inside &= value >= spread;
-    }
-    bool refused = false;
-    for (int mode = 0; mode < static_cast<int>(modes_.modes().size()); ++mode) {
-      const ModeThere there = mode_there(modes_, mode, {s - ds, s + ds, t - dt, t + dt});
-      if (there.kind == ModeThere::nowhere) continue;
-      inside = false;
-      refused |= there.kind == ModeThere::everywhere;
-    }
-    if (inside) {
-      found_.value += size;
-      return;
-    }
-    if (depth == 0) {
-      if (!refused) found_.value += 0.5 * size;
-      found_.error += refused ? size : 0.5 * size;
-      return;
-    }
-    for (const double a : {-0.5, 0.5})
-      for (const double b : {-0.5, 0.5}) visit(s + a * ds, t + b * dt, 0.5 * ds, 0.5 * dt, depth - 1);
-  }
-
-  Posture posture_;
-  WrenchBox wrenches_;
-  RegionModes modes_;
-  std::vector<LabelledHalfPlane> planes_;
-  Vector2d centre_, half_;
-  Area found_;
-};
 
 /// Least time of a few runs [ms].
 template <class Work>
@@ -118,77 +39,138 @@ double least_time(Work&& work) {
   for (int run = 0; run < 20 && spent < 200; ++run) {
     const auto begin = std::chrono::steady_clock::now();
     work();
-    const double ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double ms = milliseconds_since(begin);
     least = std::min(least, ms);
     spent += ms;
   }
   return least;
 }
 
-Region sweep(const Stance& s, double tolerance) {
+WrenchBox wrenches(const DisturbanceBox& box) { return {{}, box.kappa, box.nu}; }
+
+RegionOptions without_curves(double tolerance) {
   RegionOptions options;
   options.curves = false;
   options.area_tolerance = tolerance;
-  return region(s.contacts, s.rho, {{}, s.box.kappa, s.box.nu}, options);
+  return options;
 }
 
 void compare(const Stance& stance) {
-  const Region finest = sweep(stance, 1e-12);
-  const AlignedBox2d box = bounds_of(finest.equilibrium);
+  const Region whole = region(stance.contacts, stance.rho, wrenches(stance.box), without_curves(1e-6));
   const RobustOracle oracle(stance.contacts, stance.rho, stance.box);
-  const double whole = finest.equilibrium_area;
+  const double unit = whole.equilibrium_area;
+  const auto reference = surefoot::testing::reference_area(oracle, whole.equilibrium, 1e-9 * unit);
+  const auto box = bounds_of(whole.equilibrium);
   const auto row = [&](const char* method, double resolution, double ms, const Area& area) {
     std::printf("%s,%s,%g,%.4f,%.10g,%.2e,%.2e,%.1e\n", stance.name.c_str(), method, resolution, ms, area.value,
-                std::abs(area.value - finest.robust_area) / whole, area.error / whole, finest.area_error / whole);
+                std::abs(area.value - reference.area) / unit, area.error / unit, reference.error / unit);
   };
+  std::fflush(stdout);
   Area area;
   for (const int n : {30, 100, 300, 1000}) {
     const double ms = least_time([&] { area = by_grid(oracle, box, n); });
     row("grid", n, ms, area);
   }
   for (const int depth : {4, 6, 8, 10}) {
-    const double ms = least_time([&] { area = Quadtree(stance, box).area(depth); });
+    const double ms = least_time([&] { area = by_quadtree(stance, box, depth); });
     row("quadtree", depth, ms, area);
   }
-  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+  for (const double tolerance : {1e-3, 1e-5, 1e-6, 1e-8}) {
     const double ms = least_time([&] {
-      const Region r = sweep(stance, tolerance);
-      area = {r.robust_area, r.area_error};
+      const RegionAreas r = region_areas(stance.contacts, stance.rho, wrenches(stance.box), without_curves(tolerance));
+      area = {r.robust, r.error};
     });
-    row("sweep", tolerance, ms, area);
+    row("subdivision", tolerance, ms, area);
   }
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+    const double ms = least_time([&] { area = by_sweep(stance, tolerance); });
+    row("sweep alone", tolerance, ms, area);
+  }
+  const double ms = least_time([&] {
+    const Region r = region(stance.contacts, stance.rho, wrenches(stance.box));
+    area = {r.robust_area, r.area_error};
+  });
+  row("region with cells and curves", 1e-6, ms, area);
 }
 
 int random_postures(int count) {
   using namespace surefoot::testing;
   Sampler sampler(2025);
-  int outside = 0, nonempty = 0, noted = 0;
-  double slowest = 0, total = 0;
+  int outside = 0, nonempty = 0, noted = 0, proved = 0, cells_proved = 0;
+  std::vector<double> areas_ms, region_ms;
   for (int k = 0; k < count; ++k) {
     const SamplePosture s = sampler.posture(all_kinds[static_cast<std::size_t>(k) % all_kinds.size()]);
-    const Stance stance{name(s.kind), s.contacts, s.rho, s.box};
     const auto begin = std::chrono::steady_clock::now();
-    const Region r = sweep(stance, 1e-6);
-    const double ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    slowest = std::max(slowest, ms);
-    total += ms;
+    const RegionAreas areas = region_areas(s.contacts, s.rho, wrenches(s.box), without_curves(1e-6));
+    areas_ms.push_back(milliseconds_since(begin));
+    const auto middle = std::chrono::steady_clock::now();
+    const Region r = region(s.contacts, s.rho, wrenches(s.box));
+    region_ms.push_back(milliseconds_since(middle));
     if (r.empty()) continue;
     ++nonempty;
     noted += !r.note.empty();
-    const Area grid = by_grid(RobustOracle(s.contacts, s.rho, s.box), bounds_of(r.equilibrium), 60);
-    if (std::abs(grid.value - r.robust_area) <= grid.error + r.area_error) continue;
+    proved += areas.error <= 1.01e-6 * areas.equilibrium;
+    cells_proved += r.cells_error <= 1e-5 * r.equilibrium_area;
+    const Area grid = by_grid(RobustOracle(s.contacts, s.rho, s.box), bounds_of(r.equilibrium), 150);
+    const double off = std::abs(grid.value - r.robust_area), apart = std::abs(areas.robust - r.robust_area);
+    if (off <= grid.error + r.area_error && apart <= areas.error + r.area_error) continue;
     ++outside;
-    std::printf("outside the grid's error: %.6g, grid %.6g +- %.2g: %s\n", r.robust_area, grid.value, grid.error, s.json().c_str());
+    std::printf("outside: %.6g, grid %.6g +- %.2g, subdivision %.6g +- %.2g: %s\n", r.robust_area, grid.value, grid.error,
+                areas.robust, areas.error, s.json().c_str());
   }
-  std::printf("%d postures, %d with a region, %d outside the grid's error, %d with a note; sweep: mean %.3f ms, slowest %.1f ms\n",
-              count, nonempty, outside, noted, total / count, slowest);
+  const auto times = [](const char* what, std::vector<double>& ms) {
+    std::sort(ms.begin(), ms.end());
+    double sum = 0;
+    for (const double t : ms) sum += t;
+    std::printf("%s [ms]: median %.3f, mean %.3f, 95 %% %.2f, slowest %.1f\n", what, ms[ms.size() / 2],
+                sum / static_cast<double>(ms.size()), ms[ms.size() * 95 / 100], ms.back());
+  };
+  std::printf("%d postures, %d with a region, %d outside of an error, %d with a note; %d of R(W) proved to 1e-6, all cells of %d to 1e-5\n",
+              count, nonempty, outside, noted, proved, cells_proved);
+  times("areas", areas_ms);
+  times("region", region_ms);
   return outside == 0 ? 0 : 1;
+}
+
+void extremes(std::size_t step) {
+  struct Group {
+    int cases = 0, regions = 0, statements = 0, noted = 0;
+    double areas_ms = 0, region_ms = 0, error = 0, cells_error = 0;
+  };
+  std::map<std::string, Group> groups;
+  const auto catalogue = surefoot::testing::extreme_catalogue();
+  for (std::size_t k = 0; k < catalogue.size(); k += step) {
+    const auto& extreme = catalogue[k];
+    const auto& s = extreme.sample;
+    Group& group = groups[extreme.group];
+    ++group.cases;
+    const auto begin = std::chrono::steady_clock::now();
+    const RegionAreas areas = region_areas(s.contacts, s.rho, wrenches(s.box));
+    group.areas_ms = std::max(group.areas_ms, milliseconds_since(begin));
+    const auto middle = std::chrono::steady_clock::now();
+    const Region r = region(s.contacts, s.rho, wrenches(s.box));
+    group.region_ms = std::max(group.region_ms, milliseconds_since(middle));
+    group.regions += !r.empty();
+    group.statements += r.empty() && !r.note.empty();
+    group.noted += !r.empty() && !r.note.empty();
+    if (r.empty()) continue;
+    group.error = std::max(group.error, areas.error / areas.equilibrium);
+    group.cells_error = std::max(group.cells_error, r.cells_error / r.equilibrium_area);
+  }
+  std::printf("group,cases,regions,statements,notes,slowest_areas_ms,slowest_region_ms,greatest_error,greatest_cells_error\n");
+  for (const auto& [name, group] : groups)
+    std::printf("%s,%d,%d,%d,%d,%.2f,%.2f,%.1e,%.1e\n", name.c_str(), group.cases, group.regions, group.statements,
+                group.noted, group.areas_ms, group.region_ms, group.error, group.cells_error);
 }
 
 }  // namespace
 
 int main(int count, char** words) {
   if (count == 3 && std::strcmp(words[1], "--random") == 0) return random_postures(std::atoi(words[2]));
+  if (count >= 2 && std::strcmp(words[1], "--extremes") == 0) {
+    extremes(count == 3 ? std::max<std::size_t>(1, std::strtoul(words[2], nullptr, 10)) : 1);
+    return 0;
+  }
   constexpr double degree = std::numbers::pi / 180;
   const auto contact = [](double x, double y, double slope) {
     return Contact{{x, y}, {-std::sin(slope * degree), std::cos(slope * degree)}, 0.5};

@@ -80,7 +80,7 @@ struct Region {
 Region region(std::span<const Contact> contacts, double radius_of_gyration, const WrenchBox& box,
               const RegionOptions& options = {});
 
-/// The areas alone, at a fraction of the cost: typically 100 to 700 rectangles of 1 to 2 us.
+/// The areas alone, at a fraction of the cost: typically 100 to 700 rectangles of 2 us.
 struct RegionAreas {
   double equilibrium = 0, robust = 0;  ///< [m^2] of R_SS(W), clipped, and of R(W)
   double error = 0;                    ///< [m^2] bounds the error of both
@@ -92,7 +92,7 @@ RegionAreas region_areas(std::span<const Contact> contacts, double radius_of_gyr
                          const RegionOptions& options = {});
 
 /// The work is bounded: what is undecided after this many rectangles counts as error. Typical: 100 to 1000.
-constexpr int most_rectangles = 6000, most_rectangles_for_cells = 1500;
+constexpr int most_rectangles = 3000, most_rectangles_for_cells = 1000;
 
 /// R_SS(W) as half-planes with what bounds them in words; for a box about gravity those of
 /// RobustOracle::equilibrium_half_planes.

@@ -123,16 +123,20 @@ std::optional<std::vector<ContactMode>> modes_at(std::span<const Contact> contac
   return finish.named(found);
 }
 
-/// Cells whose modes are not confirmed at a point inside: counted, and said.
+/// Cells whose modes are not confirmed at a point inside: counted, and said. Small ones are remains of what the sweep
+/// passed over; they are dropped.
 double disputed_area(Region& region, std::span<const Contact> contacts, double rho, const RegionSetup& setup,
                      const WrenchBox& box, const Finish& finish) {
+  constexpr double small = 1e-5;  // of R_SS(W)
   double disputed = 0;
   for (RegionCell& cell : region.cells) {
     const auto expected = modes_at(contacts, rho, setup, box, finish, cell.inside);
     cell.confirmed = expected && std::is_permutation(expected->begin(), expected->end(), cell.modes.begin(), cell.modes.end());
     if (!cell.confirmed) disputed += cell.area;
   }
-  if (disputed > 0) region.note = "a cell's modes are not confirmed at a point inside; its area counts as error";
+  std::erase_if(region.cells, [&](const RegionCell& cell) { return !cell.confirmed && cell.area < small * setup.area; });
+  if (std::any_of(region.cells.begin(), region.cells.end(), [](const RegionCell& cell) { return !cell.confirmed; }))
+    region.note = "a cell's modes are not confirmed at a point inside; its area counts as error";
   return disputed;
 }
 
@@ -149,7 +153,7 @@ double difference(const Proof& proof, const SweepCells& found) {
 void settle(Region& region, double from_cells, const Proof& proof) {
   const double middle = proof.robust + 0.5 * proof.open, half = proof.error - 0.5 * proof.open;
   region.robust_area = std::abs(from_cells - middle) <= half ? from_cells : middle;
-  region.area_error = half + std::abs(region.robust_area - middle);
+  region.area_error = std::min(half + std::abs(region.robust_area - middle), region.equilibrium_area);
   region.rectangles += proof.rectangles;
 }
 
@@ -165,8 +169,8 @@ RegionAreas region_areas(std::span<const Contact> contacts, double radius_of_gyr
   if (!(setup.area > 0)) return areas;
   // Half of what is open counts as error: the area is given in the middle.
   const Proof proof = prove(setup, 2 * options.area_tolerance, true, most_rectangles);
-  areas.robust = proof.robust + 0.5 * proof.open;
-  areas.error = proof.error - 0.5 * proof.open;
+  areas.robust = std::min(proof.robust + 0.5 * proof.open, setup.area);
+  areas.error = std::min(proof.error - 0.5 * proof.open, setup.area);
   areas.rectangles = proof.rectangles;
   return areas;
 }
@@ -191,7 +195,7 @@ Region region(std::span<const Contact> contacts, double radius_of_gyration, cons
   const double disputed = disputed_area(result, contacts, radius_of_gyration, setup, box, finish);
 
   const Proof all = prove(setup, options.area_tolerance, false, most_rectangles_for_cells);
-  result.cells_error = difference(all, found) + all.error + disputed;
+  result.cells_error = std::min(difference(all, found) + all.error + disputed, 2 * setup.area);  // all in the wrong cells
   settle(result, finish.robust(), all);
   if (result.area_error > options.area_tolerance * setup.area)
     settle(result, finish.robust(), prove(setup, 2 * options.area_tolerance, true, most_rectangles));

@@ -92,7 +92,7 @@ RegionAreas region_areas(std::span<const Contact> contacts, double radius_of_gyr
                          const RegionOptions& options = {});
 
 /// The work is bounded: what is undecided after this many rectangles counts as error. Typical: 100 to 1000.
-constexpr int most_rectangles = 3000, most_rectangles_for_cells = 1000;
+constexpr int most_rectangles = 3000, most_rectangles_for_cells = 2000;
 
 /// R_SS(W) as half-planes with what bounds them in words; for a box about gravity those of
 /// RobustOracle::equilibrium_half_planes.

@@ -112,7 +112,7 @@ void Sweep::reconcile(const SweepLine& first, SweepLine& second) const {
 /// Slabs thinner than this are not looked into; on ground where curves coincide beyond what reconcile() sees through
 /// the work is limited by looking less closely, which area_error shows.
 double Sweep::thinnest() const {
-  constexpr int many = 150;  // lines; typical: 100
+  constexpr int many = 250;  // lines; typical: 100
   const double part = lines_ < many ? least_slab : lines_ < 2 * many ? 1e-5 : lines_ < 4 * many ? 1e-3 : 1;
   return part * (s_end_ - s_begin_);
 }

@@ -64,10 +64,12 @@ void Subdivision::add(const Rectangle& box, const Node& parent) {
     return;
   }
   node.decided = node.unknown == 0 && find_graphs(node);
-  if (node.decided)
-    for (const LocalCurve& curve : node.leaf.curves) node.error += 2 * curve.graph.error * box.ds() * box.dt();
-  else
-    node.error = area_inside(node);
+  node.error = area_inside(node);
+  if (node.decided) {
+    double distance = 0;
+    for (const LocalCurve& curve : node.leaf.curves) distance += 2 * curve.graph.error * box.ds() * box.dt();
+    node.error = std::min(node.error, distance);
+  }
   error_ += node.error;
   open_.push({node.error, static_cast<int>(nodes_.size())});
   nodes_.push_back(std::move(node));
@@ -102,7 +104,7 @@ void Subdivision::decide_modes(Node& node, const Node& parent) {
     if (robust_only_ && leaf.everywhere != 0) return;
     const int k = std::countr_zero(left);
     const ModeThere there = mode_there(modes_, k, leaf.box, edges);
-    if (there.kind != ModeThere::unknown) strips_ += there.strip * leaf.box.area();
+    if (there.kind != ModeThere::unknown) strips_ += std::min(there.strip, 1.0) * leaf.box.area();
     if (there.kind == ModeThere::everywhere) leaf.everywhere |= 1u << k;
     if (there.kind == ModeThere::unknown) node.unknown |= 1u << k;
     if (there.kind == ModeThere::beyond_curve) beyond(there.curve, there.sign);

@@ -36,8 +36,8 @@ Proof prove(const RegionSetup& setup, double tolerance, bool robust_only, int mo
     if (piece.modes == 0) proof.robust += piece.area;
     if (!robust_only) proof.area[piece.modes] += piece.area;
   }
-  proof.open = subdivision.open_area();
-  proof.error += subdivision.error() + rounding * setup.area;
+  proof.open = (robust_only ? 2 : 1) * subdivision.open_area();
+  proof.error += subdivision.error() + (robust_only ? subdivision.open_area() : 0) + rounding * setup.area;
   proof.rectangles = subdivision.rectangles();
   return proof;
 }
@@ -167,8 +167,7 @@ RegionAreas region_areas(std::span<const Contact> contacts, double radius_of_gyr
   areas.window = setup.window;
   areas.equilibrium = setup.area;
   if (!(setup.area > 0)) return areas;
-  // Half of what is open counts as error: the area is given in the middle.
-  const Proof proof = prove(setup, 2 * options.area_tolerance, true, most_rectangles);
+  const Proof proof = prove(setup, options.area_tolerance, true, most_rectangles);
   areas.robust = std::min(proof.robust + 0.5 * proof.open, setup.area);
   areas.error = std::min(proof.error - 0.5 * proof.open, setup.area);
   areas.rectangles = proof.rectangles;
@@ -198,7 +197,7 @@ Region region(std::span<const Contact> contacts, double radius_of_gyration, cons
   result.cells_error = std::min(difference(all, found) + all.error + disputed, 2 * setup.area);  // all in the wrong cells
   settle(result, finish.robust(), all);
   if (result.area_error > options.area_tolerance * setup.area)
-    settle(result, finish.robust(), prove(setup, 2 * options.area_tolerance, true, most_rectangles));
+    settle(result, finish.robust(), prove(setup, options.area_tolerance, true, most_rectangles));
   return result;
 }
 

@@ -69,6 +69,8 @@ void Subdivision::add(const Rectangle& box, const Node& parent) {
     double distance = 0;
     for (const LocalCurve& curve : node.leaf.curves) distance += 2 * curve.graph.error * box.ds() * box.dt();
     node.error = std::min(node.error, distance);
+  } else if (robust_only_) {
+    node.error *= 0.5;
   }
   error_ += node.error;
   open_.push({node.error, static_cast<int>(nodes_.size())});

@@ -44,7 +44,8 @@ class Subdivision {
   const std::vector<Leaf>& leaves() const { return leaves_; }
   double error() const { return error_; }
   int rectangles() const { return rectangles_; }
-  /// [m^2] of the rectangles left undecided, part of error().
+  /// [m^2] of the rectangles left undecided, part of error(); with `robust_only` half of it, for an area given in the
+  /// middle.
   double open_area() const { return open_area_; }
 
  private:

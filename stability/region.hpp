@@ -2,7 +2,7 @@
 // non-static modes that are feasible there for some wrench of W. The cells without modes make up the robust stability
 // region R(W); with a box of one wrench they are the strong stability region R(w).
 //
-// Two methods that share the rows of the modes and nothing else.
+// Two methods that share the rows of the modes and the certificates that exclude one from a rectangle.
 //   Subdivision (region_subdivision.hpp), for proof: rectangles are halved until certificates decide every mode in
 //     them, or show that its boundary is one curve; the curve is then enclosed by a polynomial. What is undecided counts
 //     as error. It needs no list of curves, touching and coinciding ones included, and gives the areas of R_SS(W) and

@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "stability/frictional.hpp"
+
 namespace surefoot::gaits {
 
 using Eigen::Vector2d;
@@ -117,32 +119,41 @@ bool swing_is_free(const Scene& scene, const Vector2d& com, const Vector2d& old_
   return scene.terrain.sector_is_free(com, radius, from, to) || scene.terrain.sector_is_free(com, radius, to, from);
 }
 
-RobustOracle oracle_of(const Scene& scene, const Feet& feet) {
+RobustOracle oracle_of(const Scene& scene, const Feet& feet) { return oracle_of(scene, feet, scene.disturbance); }
+
+RobustOracle oracle_of(const Scene& scene, const Feet& feet, const stability::DisturbanceBox& box) {
   std::array<stability::Contact, leg_count> contacts;
   std::size_t count = 0;
   for (const auto& foot : feet) {
     if (foot) contacts[count++] = contact_at(*foot);
   }
   return RobustOracle(std::span<const stability::Contact>(contacts.data(), count), scene.robot.radius_of_gyration,
-                      scene.disturbance);
+                      box);
 }
 
 bool is_stable(const Scene& scene, const RobustOracle& oracle, const Vector2d& com) {
-  return scene.criterion == Criterion::robust ? oracle.robust(com) : oracle.equilibrium(com);
+  switch (scene.criterion) {
+    case Criterion::robust: return oracle.robust(com);
+    case Criterion::equilibrium: return oracle.equilibrium(com);
+    case Criterion::frictional: break;
+    case Criterion::both:
+      if (!oracle.robust(com)) return false;
+  }
+  return stability::frictionally_stable(oracle.posture(), com, *scene.restitution);
 }
 
 bool is_stable(const Scene& scene, const RobustOracle& oracle, const Vector2d& from, const Vector2d& to) {
-  return scene.criterion == Criterion::robust ? oracle.line(from, to).stable() : oracle.line_equilibrium(from, to);
+  return scene.criterion == Criterion::equilibrium ? oracle.line_equilibrium(from, to) : oracle.line(from, to).stable();
 }
 
 stability::SafetyFactor safety_factor(const Scene& scene, const RobustOracle& oracle, const Vector2d& com) {
-  return scene.criterion == Criterion::robust ? oracle.safety_factor(com) : oracle.equilibrium_factor(com);
+  return scene.criterion == Criterion::equilibrium ? oracle.equilibrium_factor(com) : oracle.safety_factor(com);
 }
 
 stability::LineSafetyFactor safety_factor(const Scene& scene, const RobustOracle& oracle, const Vector2d& from,
                                           const Vector2d& to) {
-  return scene.criterion == Criterion::robust ? oracle.line_safety_factor(from, to)
-                                              : oracle.line_equilibrium_factor(from, to);
+  return scene.criterion == Criterion::equilibrium ? oracle.line_equilibrium_factor(from, to)
+                                                   : oracle.line_safety_factor(from, to);
 }
 
 std::optional<Rule> broken_stance_rule(const Scene& scene, const Stance& stance, const RobustOracle& oracle) {

@@ -53,11 +53,15 @@ bool swing_is_free(const Scene& scene, const Eigen::Vector2d& com, const Eigen::
 
 /// The oracle of a set of planted feet (contacts in the order of the legs).
 stability::RobustOracle oracle_of(const Scene& scene, const Feet& feet);
-/// The scene's criterion at a COM, and along a straight line of COMs, for contacts whose oracle is at hand.
+/// The same for disturbances of another size than the scene's.
+stability::RobustOracle oracle_of(const Scene& scene, const Feet& feet, const stability::DisturbanceBox& box);
+/// The scene's criterion at a COM (of a stance: the frictional criteria take two contacts), and along a straight line of
+/// COMs, for contacts whose oracle is at hand.
 bool is_stable(const Scene& scene, const stability::RobustOracle& oracle, const Eigen::Vector2d& com);
 bool is_stable(const Scene& scene, const stability::RobustOracle& oracle, const Eigen::Vector2d& from,
                const Eigen::Vector2d& to);
-/// The safety factor under the scene's criterion.
+/// The safety factor under the scene's criterion: of equilibrium alone, otherwise of robust stability (under criterion
+/// frictional it may be 0 at a stance that holds).
 stability::SafetyFactor safety_factor(const Scene& scene, const stability::RobustOracle& oracle,
                                       const Eigen::Vector2d& com);
 stability::LineSafetyFactor safety_factor(const Scene& scene, const stability::RobustOracle& oracle,

@@ -19,7 +19,13 @@ namespace surefoot::gaits {
 enum class Criterion {
   robust,       ///< R(W): no mode but rest anywhere in W
   equilibrium,  ///< R_SS(W) only: a robot that braces actively
+  frictional,   ///< stances frictionally stable [OR-H, Theorem 3], transfers robust; needs a restitution
+  both,         ///< stances robust and frictionally stable, transfers robust; needs a restitution
 };
+/// The criterion asks stances for frictional stability.
+constexpr bool asks_frictional(Criterion criterion) {
+  return criterion == Criterion::frictional || criterion == Criterion::both;
+}
 
 /// Start feet by leg (index 0..2 is leg 1..3); a leg that is absent starts in the air.
 struct Start {
@@ -37,7 +43,7 @@ struct Goal {
 };
 
 constexpr std::uint32_t greatest_seed = 2147483562;  ///< of OMPL's generator; 0 acts as 1 there, so it is refused
-const std::vector<std::string>& planner_names();     ///< "auto", "RRT", "KPIECE1", "EST", "SST"
+const std::vector<std::string>& planner_names();     ///< "auto", "Layers", "RRT", "KPIECE1", "EST", "SST"
 const std::vector<std::string>& objective_names();   ///< "steps", "safety", "distance"
 /// The message for a word that is none of `words`: names the nearest, or all.
 std::string not_known(std::string_view what, std::string_view word, const std::vector<std::string>& words);
@@ -56,7 +62,7 @@ struct Scene {
   Robot robot;
   stability::DisturbanceBox disturbance;
   Criterion criterion = Criterion::robust;
-  std::optional<double> restitution;
+  std::optional<double> restitution;  ///< in (0, 1)
   Start start;
   Goal goal;
   SearchDefaults search;

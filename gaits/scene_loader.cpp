@@ -86,7 +86,7 @@ Criterion read_criterion(const Node& node) {
   const std::string word = one_of(node, "criterion", {"robust", "equilibrium", "frictional", "both"});
   if (word == "robust") return Criterion::robust;
   if (word == "equilibrium") return Criterion::equilibrium;
-  node.fail(fmt::format("criterion: \"{}\" is not available in this version; expected robust or equilibrium", word));
+  return word == "both" ? Criterion::both : Criterion::frictional;
 }
 
 double read_restitution(const Node& node) {
@@ -269,8 +269,11 @@ Scene read_scene(const Node& root, const std::string& file) {
   std::optional<double> restitution;
   if (const Node* stability = root.find("stability")) {
     stability->allow_only({"criterion", "restitution"}, "stability");
-    if (const Node* node = stability->find("criterion")) criterion = read_criterion(*node);
+    const Node* chosen = stability->find("criterion");
+    if (chosen) criterion = read_criterion(*chosen);
     if (const Node* node = stability->find("restitution")) restitution = read_restitution(*node);
+    if (asks_frictional(criterion) && !restitution)
+      chosen->fail("criterion: frictional stability needs a restitution; expected a key \"restitution\" beside it");
   }
   Start start = read_start(root.require("start", "scene"), ground, robot);
   const Goal goal = read_goal(root.require("goal", "scene"));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stability/frictional.hpp"
+
 namespace surefoot::gaits::bare {
 
 using stability::RobustOracle;
@@ -149,10 +151,23 @@ double Checks::factor(const RobustOracle& oracle, const Point& com) const {
 void Checks::check_stance_stability(const std::string& place, const Posture& feet, const Point& com, double stated) {
   const RobustOracle oracle = oracle_of_feet(feet);
   const double sigma = factor(oracle, com);
-  if (!stable(oracle, com)) {
+  if (scene_.criterion != Criterion::frictional && !stable(oracle, com)) {
     note(Rule::stance_stability, place, "not stable with the COM at {} (safety factor {:.6g})", show(com), sigma);
   }
+  if (asks_frictional(scene_.criterion)) check_frictional(place, oracle, com);
   check_factor(Rule::stance_stability, place, stated, sigma);
+}
+
+void Checks::check_frictional(const std::string& place, const RobustOracle& oracle, const Point& com) {
+  const auto verdict = stability::frictional_verdict(oracle.posture(), com, scene_.restitution.value());
+  if (verdict.stable()) return;
+  const auto [psi_1, psi_2] = stability::psi(oracle.posture(), com);
+  std::string why;
+  if (!verdict.upward) why = "the ground does not face upward under both feet";
+  else if (!verdict.equilibrium) why = "gravity alone cannot be balanced";
+  else if (verdict.failed_mode) why = fmt::format("no kinematic-strong equilibrium, mode {}", verdict.failed_mode->name());
+  else why = fmt::format("clattering with psi = {:.6g}, {:.6g} need not die out", psi_1, psi_2);
+  note(Rule::stance_stability, place, "not frictionally stable with the COM at {}: {}", show(com), why);
 }
 
 void Checks::check_line_stability(const std::string& place, const Posture& feet, const Point& from, const Point& to,

@@ -53,7 +53,9 @@ class Checks {
   void sample_line(const std::string& place, const stability::RobustOracle& oracle, const Point& from, const Point& to,
                    double least_factor, bool certified);
   stability::RobustOracle oracle_of_feet(const Posture& feet) const;
-  bool robust() const { return scene_.criterion == Criterion::robust; }
+  /// Transfers, and what safety factors mean; stances are asked by criterion.
+  bool robust() const { return scene_.criterion != Criterion::equilibrium; }
+  void check_frictional(const std::string& place, const stability::RobustOracle& oracle, const Point& com);
   bool stable(const stability::RobustOracle& oracle, const Point& com) const;
   double factor(const stability::RobustOracle& oracle, const Point& com) const;
 

@@ -16,6 +16,8 @@ struct Decisions {
   // Non-static modes on an interval of a line: proved by rows, by covectors; a feasible point met; modes left to
   // marching, to exact numbers.
   std::uint64_t intervals_by_rows = 0, intervals_by_covectors = 0, witnesses = 0, modes_marched = 0, lines_exactly = 0;
+  // Frictional stability: postures asked, of which clattering or a mode needed exact numbers.
+  std::uint64_t frictional = 0, frictional_exactly = 0;
 };
 
 inline constinit thread_local Decisions decisions{};

@@ -101,6 +101,7 @@ class RobustOracle {
   std::vector<Eigen::Vector2d> equilibrium_polygon(const std::vector<Eigen::Vector2d>& window) const;
 
   DisturbanceBox box() const { return box_; }
+  const Posture& posture() const { return posture_; }
 
  private:
   Posture posture_;

@@ -81,6 +81,13 @@ Row<V> normal_row(const Frame<V>& frame, const ContactTerms<V>& a) {
   return {V(frame.rho2 * a.n.x), V(frame.rho2 * a.n.y), a.nz};
 }
 
+/// N_i . M^-1 N_j, times rho^2.
+template <class V>
+V normal_product(const Frame<V>& frame, int i, int j) {
+  const ContactTerms<V>&a = frame.at[i], &b = frame.at[j];
+  return V(frame.rho2 * dot(a.n, b.n)) + a.nz * b.nz;
+}
+
 template <class V>
 Row<V> roll_force_row(const Frame<V>& frame, const ContactTerms<V>& a, const Vec2<Constant<V>>& d) {
   const V along = a.r.x * d.x + a.r.y * d.y;
@@ -125,6 +132,15 @@ template <class V>
 Row<V> force_pair(const ContactTerms<V>& a, int edge_a, const ContactTerms<V>& b, int edge_b) {
   const Vec2<Constant<V>>&ca = a.edge[edge_a], &cb = b.edge[edge_b];
   return {b.sz[edge_b] * ca.y - a.sz[edge_a] * cb.y, a.sz[edge_a] * cb.x - b.sz[edge_b] * ca.x, V(cross(ca, cb))};
+}
+
+/// How many of a mode's rows are force constraints: emit_rows hands them over last, after the kinematic ones.
+inline int force_rows(const ModeSpec& spec) {
+  switch (spec.kind) {
+    case ModeSpec::Kind::all_break: return 0;
+    case ModeSpec::Kind::slide: return 1;
+    default: return 2;
+  }
 }
 
 /// Hands the rows of a mode to `sink`: first sink.denominator(D) where there is one, then sink.add(row), which returns

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "stability/frictional.hpp"
 #include "stability/region_tolerance.hpp"
 #include "stability/robust_oracle.hpp"
 #include "terrain/document.hpp"
@@ -35,6 +37,7 @@ struct Question {
   double rho = 0;
   stability::DisturbanceBox box;
   bool com_tolerance = false;
+  std::optional<double> restitution;
 };
 
 std::string shown(const json& value) {
@@ -124,7 +127,6 @@ Question read_question(std::string_view line) {
   const json object = parse(line);
   if (!object.is_object()) throw BadLine(fmt::format("found {}, expected a JSON object", shown(object)));
   allow_only(object, "", keys);
-  if (object.contains("restitution")) throw BadLine("restitution: not available in this version");
   Question question;
   const json& contacts = required(object, "", "contacts");
   if (!contacts.is_array() || contacts.empty() || contacts.size() > 3) refuse("contacts", contacts, "1 to 3 contacts");
@@ -135,6 +137,13 @@ Question read_question(std::string_view line) {
   question.rho = number(required(object, "", "rho"), "rho", false);
   question.box.kappa = number(required(object, "", "kappa"), "kappa", true);
   question.box.nu = number(required(object, "", "nu"), "nu", true);
+  if (const auto given = object.find("restitution"); given != object.end()) {
+    const double e = number(*given, "restitution", false);
+    if (e >= 1) refuse("restitution", *given, "a number between 0 and 1, ends excluded");
+    if (contacts.size() != 2) throw BadLine("restitution: frictional stability is about two contacts");
+    if (question.com_to) throw BadLine("restitution: frictional stability is about a point, leave out com_to");
+    question.restitution = e;
+  }
   if (const auto wanted = object.find("com_tolerance"); wanted != object.end()) {
     if (!wanted->is_boolean()) refuse("com_tolerance", *wanted, "true or false");
     question.com_tolerance = wanted->get<bool>();
@@ -143,12 +152,19 @@ Question read_question(std::string_view line) {
   return question;
 }
 
+struct Frictional {
+  stability::FrictionalVerdict verdict;
+  std::array<double, 2> psi;
+  stability::FrictionalMargins margins;
+};
+
 struct Answer {
   bool equilibrium = false, robust = false;
   stability::SafetyFactor factor;
   std::vector<std::string> modes;
   std::optional<double> lambda;
   std::optional<double> com_tolerance;  // [m], of points
+  std::optional<Frictional> frictional;  // of points on two contacts
   bool uncertain = false;
 };
 
@@ -165,6 +181,11 @@ Answer ask_point(const RobustOracle& oracle, const Question& question) {
   add_modes(answer.modes, oracle.feasible_modes(question.com));
   if (question.com_tolerance)
     answer.com_tolerance = stability::com_tolerance(question.contacts, question.rho, question.box, question.com);
+  if (const auto& e = question.restitution) {
+    const stability::Posture& posture = oracle.posture();
+    answer.frictional = {stability::frictional_verdict(posture, question.com, *e), stability::psi(posture, question.com),
+                         stability::frictional_margins(posture, question.com, *e)};
+  }
   return answer;
 }
 
@@ -183,6 +204,18 @@ Answer ask_line(const RobustOracle& oracle, const Question& question) {
 }
 
 const char* word(bool value) { return value ? "true" : "false"; }
+
+void write(std::string& out, const Frictional& frictional) {
+  const auto& [verdict, psi, margins] = frictional;
+  for (const double value : {psi[0], psi[1], margins.psi, margins.com})
+    if (!std::isfinite(value)) throw BadLine("the numbers of this posture overflow");
+  auto put = std::back_inserter(out);
+  fmt::format_to(put, R"(, "kinematic_strong": {}, "clattering": {}, "psi": [{}, {}], "frictional": {})",
+                 word(verdict.kinematic_strong), word(verdict.clattering), psi[0], psi[1], word(verdict.stable()));
+  fmt::format_to(put, R"(, "psi_margin": {}, "greatest_restitution": {}, "frictional_radius": {})", margins.psi,
+                 margins.restitution, margins.com);
+  if (verdict.failed_mode) fmt::format_to(put, R"(, "failed_mode": "{}")", verdict.failed_mode->name());
+}
 
 void write(std::string& out, const Answer& answer) {
   const double sigma = answer.factor.value;
@@ -203,6 +236,7 @@ void write(std::string& out, const Answer& answer) {
     out += R"(, "com_tolerance": "inf")";
   else if (answer.com_tolerance)
     fmt::format_to(put, R"(, "com_tolerance": {})", *answer.com_tolerance);
+  if (answer.frictional) write(out, *answer.frictional);
   if (answer.uncertain) out += R"(, "uncertain": true)";
   const auto& [p, q] = answer.factor.witness;
   const Eigen::Vector2d& gradient = answer.factor.gradient;

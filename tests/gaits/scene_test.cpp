@@ -118,6 +118,8 @@ goal: {com_y: [0.4, 0.6]}
 
 TEST_CASE("all choices of criterion, planner and objective that exist are accepted", "[scene]") {
   CHECK(parse_scene(with("criterion: robust", "criterion: equilibrium"), "s").criterion == Criterion::equilibrium);
+  CHECK(parse_scene(with("criterion: robust", "criterion: frictional"), "s").criterion == Criterion::frictional);
+  CHECK(parse_scene(with("criterion: robust", "criterion: both"), "s").criterion == Criterion::both);
   for (const std::string name : {"auto", "RRT", "KPIECE1", "EST", "SST"}) {
     CHECK(parse_scene(with("planner: EST", "planner: " + name), "s").search.planner == name);
   }
@@ -209,10 +211,6 @@ TEST_CASE("words that are not choices are refused, near ones suggested", "[scene
   const Fault fault = GENERATE(
       Fault{"criterion: robust", "criterion: robst",
             "s.yaml:16:14: criterion: \"robst\" is not known; did you mean \"robust\"?"},
-      Fault{"criterion: robust", "criterion: frictional",
-            "s.yaml:16:14: criterion: \"frictional\" is not available in this version; expected robust or equilibrium"},
-      Fault{"criterion: robust", "criterion: both",
-            "s.yaml:16:14: criterion: \"both\" is not available in this version"},
       Fault{"planner: EST", "planner: rrt", "s.yaml:23:45: planner: \"rrt\" is not known; did you mean \"RRT\"?"},
       Fault{"planner: EST", "planner: dijkstra",
             "s.yaml:23:45: planner: \"dijkstra\" is not known; expected one of: auto, RRT, KPIECE1, EST, SST"},

@@ -132,7 +132,7 @@ TEST_CASE("What is not a proper question is refused with its place", "[query]") 
   CHECK_THAT(fault(with("[0,1]", "[0,1,0]")), Contains("contacts[0].n"));
   CHECK_THAT(fault(with("[0,1]", "[0,null]")), Contains("contacts[0].n[1]"));
   CHECK_THAT(fault(with("[0.5,0.4]", "{}")), Contains("com"));
-  CHECK_THAT(fault(with("\"rho\"", "\"restitution\": 0.1, \"rho\"")), Contains("not available in this version"));
+  CHECK_THAT(fault(with("\"rho\"", "\"restitution\": 1, \"rho\"")), Contains("between 0 and 1"));
   CHECK_THAT(fault(R"({"contacts": [], "com": [0,0], "rho": 1, "kappa": 0, "nu": 0})"), Contains("1 to 3 contacts"));
   const std::string contact = R"({"p": [0,0], "n": [0,1], "mu": 0.5})";
   CHECK_THAT(fault(R"({"contacts": [)" + contact + "," + contact + "," + contact + "," + contact +

@@ -39,6 +39,14 @@ struct LeftOut {
 enum class Status { solved, no_plan_found, infeasible };
 const char* to_string(Status status);
 
+/// How far a search went that knows.
+struct Resolution {
+  double foothold_spacing = 0;     ///< of the finest lattice begun [m]
+  int com_columns = 0;             ///< of COMs across each pair of footholds there
+  bool fewest_on_lattice = false;  ///< that lattice has no plan of fewer steps
+  int least_steps = 0;             ///< no plan whatever has fewer
+};
+
 struct Plan {
   std::string scene;
   Status status = Status::no_plan_found;
@@ -50,6 +58,7 @@ struct Plan {
   double safety_factor = 0;  ///< least of all
   std::optional<double> safety_factor_before_refinement;
   double time_s = 0;
+  std::optional<Resolution> resolution;
   std::vector<LeftOut> left_out;
   int steps() const { return static_cast<int>(transfers.size()); }
 };

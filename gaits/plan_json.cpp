@@ -77,6 +77,15 @@ Tree list_of(const std::vector<Item>& items) {
   return list;
 }
 
+Tree tree_of(const Resolution& resolution) {
+  Tree tree;
+  tree["foothold_spacing"] = finite(resolution.foothold_spacing, "foothold_spacing");
+  tree["com_columns"] = resolution.com_columns;
+  tree["fewest_on_lattice"] = resolution.fewest_on_lattice;
+  tree["least_steps"] = resolution.least_steps;
+  return tree;
+}
+
 Tree tree_of(const Plan& plan) {
   Tree tree;
   tree["surefoot"] = 1;
@@ -92,6 +101,7 @@ Tree tree_of(const Plan& plan) {
     tree["safety_factor_before_refinement"] = factor(*plan.safety_factor_before_refinement);
   tree["steps"] = plan.steps();
   tree["time_s"] = finite(plan.time_s, "time_s");
+  if (plan.resolution) tree["resolution"] = tree_of(*plan.resolution);
   tree["left_out"] = list_of(plan.left_out);
   return tree;
 }

@@ -111,6 +111,18 @@ Status status(const Node& node) {
             (near.empty() ? "" : " (did you mean '" + near + "'?)"));
 }
 
+Resolution resolution(const Node& node) {
+  constexpr const char* what = "resolution";
+  node.allow_only({"foothold_spacing", "com_columns", "fewest_on_lattice", "least_steps"}, what);
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  Resolution result;
+  result.foothold_spacing = node.require("foothold_spacing", what).not_negative("foothold_spacing");
+  result.com_columns = static_cast<int>(integer(node.require("com_columns", what), "com_columns", 0, most));
+  result.fewest_on_lattice = node.require("fewest_on_lattice", what).boolean("fewest_on_lattice");
+  result.least_steps = static_cast<int>(integer(node.require("least_steps", what), "least_steps", 0, most));
+  return result;
+}
+
 void check_version(const Node& root) {
   const Node& node = root.require("surefoot", "plan");
   const std::int64_t version = node.integer("format version");
@@ -121,7 +133,7 @@ Plan plan(const Node& root) {
   constexpr const char* what = "plan";
   root.entries(what);
   root.allow_only({"surefoot", "scene", "status", "reason", "planner", "seed", "stances", "transfers", "safety_factor",
-                   "safety_factor_before_refinement", "steps", "time_s", "left_out"},
+                   "safety_factor_before_refinement", "steps", "time_s", "resolution", "left_out"},
                   what);
   check_version(root);
   Plan result;
@@ -141,6 +153,7 @@ Plan plan(const Node& root) {
     steps->fail("steps is " + std::to_string(steps->integer("steps")) + ", but there are " +
                 std::to_string(result.steps()) + " transfers");
   if (const Node* time = root.find("time_s")) result.time_s = time->not_negative("time_s");
+  if (const Node* reached = root.find("resolution")) result.resolution = resolution(*reached);
   if (const Node* items = root.find("left_out")) result.left_out = list(*items, "left_out", left_out);
   return result;
 }

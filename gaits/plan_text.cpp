@@ -152,7 +152,19 @@ class Report {
         text += fmt::format(", {} before refinement", factor_in_words(*plan_.safety_factor_before_refinement));
       text += "\n";
     }
-    return text + fmt::format("planner {}, seed {}, {:.3f} s\n", or_dash(plan_.planner), plan_.seed, plan_.time_s);
+    return text + fmt::format("planner {}, seed {}, {:.3f} s\n", or_dash(plan_.planner), plan_.seed, plan_.time_s) +
+           resolution();
+  }
+
+  std::string resolution() const {
+    if (!plan_.resolution || !options_.explain) return "";
+    const Resolution& reached = *plan_.resolution;
+    const std::string lattice = fmt::format("footholds {:.3g} m apart and {} columns of COMs on each pair",
+                                            reached.foothold_spacing, reached.com_columns);
+    if (plan_.steps() <= reached.least_steps) return "No plan has fewer steps: reach alone forbids it.\n";
+    return fmt::format("{} {}; whatever the lattice, {} step{} at least.\n",
+                       reached.fewest_on_lattice ? "No plan of fewer steps on" : "Searched, not to the end, on", lattice,
+                       reached.least_steps, reached.least_steps == 1 ? "" : "s");
   }
 
   std::string where() const {

@@ -22,7 +22,7 @@ double Goal::distance(const Eigen::Vector2d& com) const {
 }
 
 const std::vector<std::string>& planner_names() {
-  static const std::vector<std::string> names{"auto", "RRT", "KPIECE1", "EST", "SST"};
+  static const std::vector<std::string> names{"auto", "Layers", "RRT", "KPIECE1", "EST", "SST"};
   return names;
 }
 

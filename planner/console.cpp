@@ -34,6 +34,29 @@ void guard_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+namespace {
+
+volatile std::sig_atomic_t interruption_asked = 0;
+
+extern "C" void ask_interruption(int signal) {
+  interruption_asked = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+// Where SIGINT is ignored (a job in the background of a script), it stays ignored.
+Interruption::Interruption() {
+  interruption_asked = 0;
+  if (std::signal(SIGINT, SIG_IGN) != SIG_IGN) std::signal(SIGINT, ask_interruption);
+}
+
+Interruption::~Interruption() {
+  if (std::signal(SIGINT, SIG_IGN) != SIG_IGN) std::signal(SIGINT, SIG_DFL);
+}
+
+bool Interruption::asked() const { return interruption_asked != 0; }
+
 void write_stdout(std::string_view text) {
   const int fault = write_all(STDOUT_FILENO, text);
   if (fault == EPIPE) throw ReaderGone("standard output was closed by its reader");

@@ -24,6 +24,16 @@ class ReaderGone : public OutputError {
 /// a closed pipe is an error rather than a signal. A stream that was closed refuses to be written to.
 void guard_standard_streams();
 
+/// While one exists, the first SIGINT asks for an early end instead of ending the program; the second one ends it.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+  bool asked() const;
+};
+
 /// Throws OutputError.
 void write_stdout(std::string_view text);
 /// "surefoot: text" on stderr; failure to write there is ignored.

@@ -58,12 +58,15 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
       ->type_name("S");
   plan->add_option("--planner", a.planner, fmt::format("{}", fmt::join(planner_names(), ", ")))->type_name("NAME");
   plan->add_option("--objective", a.objective, fmt::format("{}", fmt::join(objective_names(), ", ")))->type_name("NAME");
+  plan->add_option("--effort", a.effort, "work spent on a better plan, relative to the usual; 0: take the first")
+      ->type_name("X");
   plan->add_flag("--no-refine", a.no_refine, "leave the plan as the search found it");
   plan->add_flag("--explain", a.explain, "say what limits each step, and what was left out and why");
   auto* quiet = plan->add_flag("-q,--quiet", a.quiet, "nothing but the result: no progress, no notes");
   plan->add_flag("-v,--verbose", a.verbose, "counts and times of each stage on standard error")->excludes(quiet);
   plan->footer(
       "Exit status: 0 solved, 1 no plan found within the limit, 2 bad input or usage, 3 proven infeasible.\n"
+      "Ctrl-C ends the search with the best plan so far; a second one ends the program.\n"
       "Example: surefoot plan maps/stairs_up.yaml -o plan.json --svg plan.svg");
   return plan;
 }

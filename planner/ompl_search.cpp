@@ -9,9 +9,11 @@
 #include <ompl/control/planners/rrt/RRT.h>
 #include <ompl/control/planners/sst/SST.h>
 #include <ompl/datastructures/NearestNeighborsLinear.h>
+#include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Console.h>
 
 #include "planner/com_neighbors.hpp"
+#include "planner/layers_planner.hpp"
 #include "planner/stance_space.hpp"
 
 namespace surefoot::planner {
@@ -73,7 +75,10 @@ class PathCost : public ob::OptimizationObjective {
 };
 
 ob::PlannerPtr make_planner(const oc::SpaceInformationPtr& si, const ob::ProblemDefinitionPtr& problem,
-                            const OmplRun& run, double reach) {
+                            const OmplRun& run, StepProposals& proposals) {
+  const double reach = proposals.scene().robot.reach_max;
+  if (run.planner == "Layers")
+    return std::make_shared<LayersPlanner>(si, proposals, AnytimeOptions{run.seed, run.objective, {}});
   if (run.planner == "KPIECE1") {
     auto planner = std::make_shared<oc::KPIECE1>(si);
     planner->setGoalBias(run.goal_bias);
@@ -113,6 +118,7 @@ oc::SpaceInformationPtr make_space(StepProposals& proposals) {
   const auto si = std::make_shared<oc::SpaceInformation>(space, controls);
   si->setStatePropagator(std::make_shared<StepPropagator>(si, proposals));
   si->setStateValidityChecker(std::make_shared<LegalStep>(si));
+  si->setMotionValidator(std::make_shared<StepMotion>(si, proposals));
   si->setDirectedControlSamplerAllocator([&proposals](const oc::SpaceInformation* information) {
     return std::make_shared<DirectedSteps>(information, proposals);
   });
@@ -124,7 +130,10 @@ oc::SpaceInformationPtr make_space(StepProposals& proposals) {
 
 std::vector<Node> nodes_of(const ob::PathPtr& path) {
   std::vector<Node> nodes;
-  for (const ob::State* state : path->as<oc::PathControl>()->getStates()) nodes.push_back(StanceSpace::of(state).node);
+  auto* of_steps = dynamic_cast<oc::PathControl*>(path.get());
+  const auto& states =
+      of_steps ? of_steps->getStates() : path->as<ompl::geometric::PathGeometric>()->getStates();
+  for (const ob::State* state : states) nodes.push_back(StanceSpace::of(state).node);
   return nodes;
 }
 
@@ -134,7 +143,6 @@ std::vector<Node> run_ompl(StepProposals& proposals, const std::vector<Node>& st
                            std::uint64_t& iterations_done) {
   const Silence silence;
   ompl::RNG::setSeed(run.seed);
-  const double reach = proposals.scene().robot.reach_max;
   const auto si = make_space(proposals);
   const auto problem = std::make_shared<ob::ProblemDefinition>(si);
   ob::ScopedState<StanceSpace> start(si);
@@ -144,13 +152,13 @@ std::vector<Node> run_ompl(StepProposals& proposals, const std::vector<Node>& st
   }
   problem->setGoal(std::make_shared<ComGoal>(si, proposals.scene()));
   problem->setOptimizationObjective(std::make_shared<PathCost>(si, run.objective == "distance"));
-  const auto planner = make_planner(si, problem, run, reach);
+  const auto planner = make_planner(si, problem, run, proposals);
   planner->setProblemDefinition(problem);
   planner->setup();
 
   std::uint64_t iterations = 0;
   const ob::PlannerTerminationCondition stop([&] {
-    return iterations++ >= run.iterations || std::chrono::steady_clock::now() >= run.deadline;
+    return iterations++ >= run.iterations || std::chrono::steady_clock::now() >= run.deadline || run.interrupted();
   });
   planner->solve(stop);
   iterations_done += iterations;

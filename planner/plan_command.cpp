@@ -48,6 +48,9 @@ SearchOptions search_options(const PlanArguments& arguments, const gaits::Scene&
   }
   if (!std::isfinite(options.time_limit) || options.time_limit <= 0)
     throw terrain::InputError(fmt::format("--time-limit: found {}, expected seconds > 0", options.time_limit));
+  if (!std::isfinite(arguments.effort) || arguments.effort < 0)
+    throw terrain::InputError(fmt::format("--effort: found {}, expected a number >= 0", arguments.effort));
+  options.effort = arguments.effort;
   if (arguments.planner) options.planner = one_of("--planner", *arguments.planner, planner_names());
   if (arguments.objective) options.objective = one_of("--objective", *arguments.objective, gaits::objective_names());
   return options;
@@ -98,14 +101,14 @@ Outputs open_outputs(const PlanArguments& arguments) {
 
 /// The refined plan where it holds, the plan as found where only that holds; `fault` where neither does.
 gaits::Plan refine_and_verify(const gaits::Scene& scene, const gaits::Plan& found, const PlanArguments& arguments,
-                              Clock::time_point deadline, std::string& fault) {
+                              bool refine, Clock::time_point deadline, std::string& fault) {
   const auto refusal = [&scene](const gaits::Plan& plan) -> std::string {
     const gaits::Verification verification = gaits::verify(scene, plan);
     if (verification.holds()) return {};
     const gaits::Fault& first = verification.faults.front();
     return fmt::format("{}: {}: {}", first.place, gaits::to_string(first.rule), first.message);
   };
-  if (!arguments.no_refine) {
+  if (refine) {
     RefineOptions options;
     options.deadline = deadline;
     gaits::Plan refined = refine_unverified(scene, found, options);
@@ -155,22 +158,29 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
 int run_plan(const PlanArguments& arguments) {
   output_format(arguments);  // says what is wrong with it before anything else is done
   const gaits::Scene scene = open_scene(arguments.scene);
-  const SearchOptions options = search_options(arguments, scene);
+  SearchOptions options = search_options(arguments, scene);
   Outputs outputs = open_outputs(arguments);
   if (arguments.verbose)
     note(fmt::format("{}: {} segments, planner {}, seed {}, time limit {} s", scene.name,
                      scene.terrain.segments().size(), options.planner, options.seed, options.time_limit));
-  if (!arguments.quiet)
-    show_progress(fmt::format("searching ({}, at most {} s) ...", options.planner, options.time_limit));
+  if (!arguments.quiet) options.progress = [](const std::string& text) { show_progress(text); };
+  const Interruption interruption;
+  options.interrupted = [&interruption] { return interruption.asked(); };
   const auto begin = Clock::now();
   const auto elapsed = [begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   gaits::Plan plan = search(scene, options);
   show_progress("");
+  if (interruption.asked() && plan.status == gaits::Status::solved && !arguments.quiet)
+    note("interrupted: this is the best plan so far, not refined");
   if (arguments.verbose)
     note(fmt::format("search: {}, {} steps, {:.3f} s", gaits::to_string(plan.status), plan.steps(), elapsed()));
   if (plan.status == gaits::Status::solved) {
     std::string fault;
-    plan = refine_and_verify(scene, plan, arguments, deadline_after(begin, options.time_limit), fault);
+    // Refinement trades the COM's way for safety.
+    const bool refine = !arguments.no_refine && !interruption.asked() && options.objective != "distance";
+    if (!arguments.no_refine && options.objective == "distance")
+      plan.left_out.push_back({"refinement", "it would make the COM's way longer; the objective is distance"});
+    plan = refine_and_verify(scene, plan, arguments, refine, deadline_after(begin, options.time_limit), fault);
     if (!fault.empty()) {
       report_error("internal: the verifier refuses the plan that was found, nothing is printed: " + fault);
       return exit_failure;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "gaits/rules.hpp"
+#include "planner/anytime_search.hpp"
+#include "planner/infeasibility.hpp"
 #include "planner/ompl_search.hpp"
 #include "planner/problem.hpp"
 #include "planner/shorten.hpp"
@@ -24,13 +26,18 @@ struct Turn {
   std::uint64_t iterations;
 };
 
-/// Turns of `auto`: RRT finds nearly everything in its first turn (measured on the canned scenes); a tree that
-/// went wrong is dropped soon and grown anew, longer each time, with the others in between.
-constexpr Turn auto_turns[] = {{"RRT", 0.7, 1000}, {"RRT", 0.3, 2000},     {"EST", 0.3, 2000},
-                               {"RRT", 0.5, 4000}, {"KPIECE1", 0.3, 4000}, {"RRT", 0.3, 8000}};
+/// Turns of `auto` where Layers found nothing: planners that are not bound to a lattice. A tree that went wrong is
+/// dropped soon and grown anew, longer each time.
+constexpr Turn auto_turns[] = {{"RRT", 0.7, 1000}, {"EST", 0.3, 2000}, {"RRT", 0.5, 4000}, {"KPIECE1", 0.3, 4000}};
+
+// Work of Layers, about a microsecond a unit.
+constexpr std::uint64_t stall_before_proof = 150'000;  ///< without progress: then it is time to ask whether there is a plan
+constexpr std::uint64_t greatest_stall = 1'500'000;
+constexpr std::uint64_t usual_improvement = 300'000;
 
 std::vector<Turn> turns_of(const std::string& planner) {
   if (planner == "auto") return {std::begin(auto_turns), std::end(auto_turns)};
+  if (planner == "Layers") return {};
   for (const std::string& name : planner_names()) {
     if (name != planner) continue;
     const double bias = planner == "RRT" ? 0.7 : 0.3;
@@ -58,7 +65,10 @@ void note_left_out(const gaits::Scene& scene, const ProposalCounts& counts, gait
                              "no terrain within the least reach of the COM: the shortened leg turns any way"});
   if (scene.criterion == gaits::Criterion::equilibrium)
     plan.left_out.push_back({"non-static contact modes", "criterion equilibrium: the robot braces actively"});
-  if (!scene.restitution) plan.left_out.push_back({"frictional stability", "no restitution is given"});
+  if (!scene.restitution)
+    plan.left_out.push_back({"frictional stability", "no restitution is given"});
+  else if (!gaits::asks_frictional(scene.criterion))
+    plan.left_out.push_back({"frictional stability", "the criterion does not ask for it"});
 }
 
 class Search {
@@ -72,10 +82,9 @@ class Search {
   }
 
   gaits::Plan run() {
-    std::vector<Node> path = find();
-    if (!path.empty()) {
-      path = shorten(proposals_, std::move(path), options_.objective);
+    if (const std::vector<Node> path = find(); !path.empty()) {
       plan_.status = gaits::Status::solved;
+      plan_.reason.clear();
       write_path(path, plan_);
       gaits::rate(scene_, plan_);
     }
@@ -85,6 +94,8 @@ class Search {
   }
 
  private:
+  bool stopped() const { return Clock::now() >= deadline_ || options_.interrupted(); }
+
   std::vector<Node> find() {
     const StartChoice start = choose_start(proposals_);
     if (start.nodes.empty()) {
@@ -92,22 +103,68 @@ class Search {
         const std::string& place = scene_.start.place.empty() ? scene_.file : scene_.start.place;
         throw terrain::InputError(fmt::format("{}: start: {}", place, start.fault));
       }
-      plan_.reason = "start is not stable: " + start.fault;
+      if (!is_impossible()) plan_.reason = "start is not stable: " + start.fault;
       return {};
     }
     if (scene_.goal.contains(start.nodes.front().com)) return {start.nodes.front()};
-    if (const GoalLook look = look_at_goal(scene_); !look.standable) {
-      if (look.decided) plan_.status = gaits::Status::infeasible;
+    const bool layers = options_.planner == "auto" || options_.planner == "Layers";
+    std::vector<Node> path = layers ? search_layers(start.nodes) : take_turns(start.nodes);
+    if (path.empty() && !layers && is_impossible()) return {};
+    if (!path.empty() || plan_.status == gaits::Status::infeasible) return path;
+    if (const GoalLook look = look_at_goal(scene_); !look.standable)
       plan_.reason = "goal cannot be stood on: " + look.fault;
-      return {};
+    return {};
+  }
+
+  /// Whether it can be proven that there is no plan; then that is the result.
+  bool is_impossible() {
+    if (!options_.prove || stopped()) return false;
+    options_.progress("looking for a reason why there is no plan ...");
+    ProofLimits limits;
+    limits.deadline = deadline_;
+    const auto impossibility = prove_infeasible(scene_, limits);
+    if (!impossibility) return false;
+    plan_.status = gaits::Status::infeasible;
+    plan_.reason = impossibility->reason;
+    return true;
+  }
+
+  std::vector<Node> search_layers(const std::vector<Node>& starts) {
+    AnytimeOptions anytime{options_.seed, options_.objective, [this] { return stopped(); }};
+    AnytimeSearch search(proposals_, starts, anytime);
+    options_.progress(fmt::format("searching (at most {} s) ...", options_.time_limit));
+    if (!search.find(stall_before_proof) && (is_impossible() || !search.find(greatest_stall))) {
+      if (plan_.status == gaits::Status::infeasible) return {};
+      std::vector<Node> path = take_turns(starts);
+      if (path.empty()) plan_.reason += came_to(search.nearest_com());
+      return path;
     }
-    return take_turns(start.nodes);
+    plan_.planner = "Layers";
+    improve(search);
+    plan_.resolution = search.resolution();
+    return search.path();
+  }
+
+  /// In slices, telling the best so far in between.
+  void improve(AnytimeSearch& search) {
+    constexpr double slices = 20;
+    const double work = std::min(options_.effort * static_cast<double>(usual_improvement), 1e18);
+    for (int i = 0; i < slices && !stopped(); ++i) {
+      options_.progress(fmt::format("{} steps, looking for a better plan ...", search.path().size() - 1));
+      if (!search.improve(static_cast<std::uint64_t>(work / slices))) return;
+    }
+  }
+
+  std::string came_to(const Eigen::Vector2d& com) const {
+    return fmt::format("; the search came to ({:.3g}, {:.3g}), {:.3g} m from the goal", com.x(), com.y(),
+                       scene_.goal.distance(com));
   }
 
   std::vector<Node> take_turns(const std::vector<Node>& starts) {
     const double factor = length_factor(scene_, starts.front().com);
     std::uint64_t iterations = 0;
-    for (std::size_t k = 0; k < turns_.size() && Clock::now() < deadline_; ++k) {
+    for (std::size_t k = 0; k < turns_.size() && !stopped(); ++k) {
+      options_.progress(fmt::format("searching ({}, at most {} s) ...", turns_[k].planner, options_.time_limit));
       OmplRun run;
       run.planner = turns_[k].planner;
       run.seed = turn_seed(options_.seed, k);
@@ -115,14 +172,16 @@ class Search {
       run.goal_bias = turns_[k].goal_bias;
       run.objective = options_.objective;
       run.deadline = deadline_;
+      run.interrupted = options_.interrupted;
       std::vector<Node> path = run_ompl(proposals_, starts, run, iterations);
       if (path.empty()) continue;
       plan_.planner = run.planner;
-      return path;
+      return shorten(proposals_, std::move(path), options_.objective);
     }
-    plan_.reason = fmt::format("no plan found {} ({} iterations of {}; {})",
-                               Clock::now() < deadline_ ? "within the iteration budget" : "within the time limit",
-                               iterations, options_.planner, summary(proposals_.counts()));
+    const char* end = options_.interrupted()       ? "before the search was interrupted"
+                      : Clock::now() < deadline_ ? "within the work a search may do"
+                                                 : "within the time limit";
+    plan_.reason = fmt::format("no plan found {} ({}; {})", end, options_.planner, summary(proposals_.counts()));
     return {};
   }
 

@@ -26,28 +26,44 @@ Node after_step(StepProposals& proposals, const Node& from, const terrain::Footh
 
 /// Legs are alike, so a stance may be reached with its legs exchanged, and what follows it goes on with them exchanged.
 using Renaming = std::array<int, gaits::leg_count>;  ///< new name by old name
+constexpr Renaming same_names{0, 1, 2};
+
+Renaming after(const Renaming& first, const Renaming& then) {
+  return {then[first[0]], then[first[1]], then[first[2]]};
+}
 
 Node renamed(StepProposals& proposals, const Node& node, const Renaming& name) {
+  if (name == same_names) return node;
   Node other{{}, name[node.free_leg], node.com, proposals.next_id()};
   for (int leg = 0; leg < gaits::leg_count; ++leg) other.feet[name[leg]] = node.feet[leg];
   return other;
 }
 
+/// Goes along the path once. What lies ahead keeps its names until it comes into the window.
 class Shortener {
  public:
-  Shortener(StepProposals& proposals, std::vector<Node> path) : proposals_(proposals), path_(std::move(path)) {}
+  Shortener(StepProposals& proposals, std::vector<Node> path) : proposals_(proposals), ahead_(std::move(path)) {}
 
   std::vector<Node> run() {
-    for (std::size_t i = 0; i + 2 < path_.size(); ++i)
-      while (replace_some_window(i)) {
-      }
-    return std::move(path_);
+    for (look_ahead(); path_.size() > 2; look_ahead()) {
+      while (replace_some_window()) look_ahead();
+      done_.push_back(path_.front());
+      path_.erase(path_.begin());
+    }
+    done_.insert(done_.end(), path_.begin(), path_.end());
+    return std::move(done_);
   }
 
  private:
-  bool replace_some_window(std::size_t i) {
-    for (std::size_t j = std::min(path_.size() - 1, i + longest_window); j >= i + 2; --j)
-      if (bridge_by_one(i, j) || (j >= i + 3 && bridge_by_two(i, j))) return true;
+  /// One stance more than the longest window: a bridge must leave it within a step.
+  void look_ahead() {
+    while (path_.size() < longest_window + 2 && next_ < ahead_.size())
+      path_.push_back(renamed(proposals_, ahead_[next_++], name_));
+  }
+
+  bool replace_some_window() {
+    for (std::size_t j = std::min(path_.size() - 1, longest_window); j >= 2; --j)
+      if (bridge_by_one(0, j) || (j >= 3 && bridge_by_two(0, j))) return true;
     return false;
   }
 
@@ -115,18 +131,19 @@ class Shortener {
   /// from elsewhere: the next step must still be able to swing it.
   bool replace(std::size_t i, std::size_t j, const std::vector<Node>& bridge, const Renaming& name) {
     std::vector<Node> rest;
-    for (std::size_t k = j + 1; k < path_.size(); ++k) {
-      rest.push_back(renamed(proposals_, path_[k], name));
-      if (rest.size() == 1 && !proposals_.is_legal(bridge.back(), rest.front())) return false;
-    }
+    for (std::size_t k = j + 1; k < path_.size(); ++k) rest.push_back(renamed(proposals_, path_[k], name));
+    if (!rest.empty() && !proposals_.is_legal(bridge.back(), rest.front())) return false;
     path_.resize(i + 1);
     path_.insert(path_.end(), bridge.begin(), bridge.end());
     path_.insert(path_.end(), rest.begin(), rest.end());
+    name_ = after(name_, name);
     return true;
   }
 
   StepProposals& proposals_;
-  std::vector<Node> path_;
+  std::vector<Node> done_, path_, ahead_;  ///< behind the window, in it, ahead of it with the names they had
+  std::size_t next_ = 0;
+  Renaming name_ = same_names;
 };
 
 /// Whether path[i] may stand at `com` instead, both its steps being legal; `moved` is then that node.

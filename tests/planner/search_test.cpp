@@ -88,7 +88,7 @@ void require_holds(const gaits::Scene& scene, const gaits::Plan& plan) {
 }  // namespace
 
 TEST_CASE("every planner finds a verified plan on level ground, stairs and across a gap", "[search]") {
-  const std::string name = GENERATE("auto", "RRT", "KPIECE1", "EST", "SST");
+  const std::string name = GENERATE("auto", "Layers", "RRT", "KPIECE1", "EST", "SST");
   const auto make = GENERATE(&flat_scene, &stairs_scene, &gap_scene);
   const gaits::Scene scene = make();
   CAPTURE(name, scene.file);
@@ -99,14 +99,14 @@ TEST_CASE("every planner finds a verified plan on level ground, stairs and acros
 }
 
 TEST_CASE("every planner climbs between two walls under criterion equilibrium", "[search]") {
-  const std::string name = GENERATE("auto", "RRT", "KPIECE1", "EST", "SST");
+  const std::string name = GENERATE("auto", "Layers", "RRT", "KPIECE1", "EST", "SST");
   const gaits::Scene scene = walls_scene();
   CAPTURE(name);
   require_holds(scene, run(scene, name));
 }
 
 TEST_CASE("the same seed gives the same plan, byte for byte, whatever ran before", "[search]") {
-  const std::string name = GENERATE("auto", "RRT", "KPIECE1", "EST", "SST");
+  const std::string name = GENERATE("auto", "Layers", "RRT", "KPIECE1", "EST", "SST");
   const gaits::Scene scene = stairs_scene();
   CAPTURE(name);
   const std::string first = bytes(run(scene, name, 7));
@@ -136,7 +136,7 @@ TEST_CASE("objectives are served: no plan of `distance` moves the COM farther th
 TEST_CASE("a start that is in the goal needs no step", "[search]") {
   const gaits::Scene scene =
       gaits::parse_scene(scene_text(level, three_feet, "{com_x: [-0.2, 0.1], com_y: [0.3, 0.6]}"), "there");
-  const std::string name = GENERATE("auto", "RRT", "KPIECE1", "EST", "SST");
+  const std::string name = GENERATE("auto", "Layers", "RRT", "KPIECE1", "EST", "SST");
   const gaits::Plan plan = run(scene, name);
   require_holds(scene, plan);
   CHECK(plan.steps() == 0);
@@ -198,29 +198,29 @@ TEST_CASE("start feet that one COM alone can reach are not called bad input", "[
 TEST_CASE("terrain that is farther away than any journey changes nothing", "[search]") {
   const std::string far = "    - vertices: [[7, 1.0e+20], [8, 1.0e+20]]\n";
   const auto scene = gaits::parse_scene(scene_text(level + far, three_feet, "{com_x: [2, 2.4]}"), "far");
-  const std::string name = GENERATE("auto", "RRT", "KPIECE1", "EST", "SST");
+  const std::string name = GENERATE("auto", "Layers", "RRT", "KPIECE1", "EST", "SST");
   CAPTURE(name);
   require_holds(scene, run(scene, name));
 }
 
-TEST_CASE("a goal that cannot be stood on is said so and not searched for", "[search]") {
+TEST_CASE("that a goal cannot be stood on is proven", "[search]") {
   SECTION("no terrain in reach: proven") {
     const auto plan = run(gaits::parse_scene(scene_text(level, three_feet, "{com_x: [8, 9]}"), "void"));
     CHECK(plan.status == gaits::Status::infeasible);
-    CHECK_THAT(plan.reason, Catch::StartsWith("goal cannot be stood on"));
+    CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 8 and 9: "));
   }
-  SECTION("ground too steep to stand on: no stance found") {
+  SECTION("ground too steep to stand on: proven") {
     const auto plan = run(gaits::parse_scene(
         scene_text("  friction: 0.4\n  chains:\n    - vertices: [[-1, 0], [1, 0], [6, 5]]\n", three_feet,
                    "{com_x: [4, 4.2]}"),
         "steep"));
-    CHECK(plan.status == gaits::Status::no_plan_found);
-    CHECK_THAT(plan.reason, Catch::StartsWith("goal cannot be stood on"));
+    CHECK(plan.status == gaits::Status::infeasible);
+    CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 4 and 4.2: "));
     CHECK(plan.stances.empty());
   }
 }
 
-TEST_CASE("a goal beyond a gap wider than two legs is not found, and the reason counts what was refused", "[search]") {
+TEST_CASE("a goal beyond a gap wider than two legs is not found: what was refused is counted, and then it is proven", "[search]") {
   const auto scene = gaits::parse_scene(
       scene_text("  friction: 0.6\n  chains:\n    - vertices: [[-1, 0], [0.8, 0]]\n    - vertices: [[3, 0], [5, 0]]\n",
                  three_feet, "{com_x: [4, 4.2]}"),
@@ -228,9 +228,16 @@ TEST_CASE("a goal beyond a gap wider than two legs is not found, and the reason 
   planner::SearchOptions options;
   options.planner = GENERATE("RRT", "KPIECE1", "EST", "SST");
   options.time_limit = 0.5;  // what is claimed does not depend on where it ends
+  options.prove = false;
   const auto plan = planner::search(scene, options);
-  CHECK(plan.status != gaits::Status::solved);
+  CHECK(plan.status == gaits::Status::no_plan_found);
   CHECK_THAT(plan.reason, Catch::Contains("no plan found") && Catch::Contains("legal steps among"));
+  // Given time, the reason is that no plan exists: the far edges are 2.2 m apart, two legs of 0.9 m reach 1.8 m.
+  options.time_limit = 300;
+  options.prove = true;
+  const auto proven = planner::search(scene, options);
+  CHECK(proven.status == gaits::Status::infeasible);
+  CHECK(proven.reason == "between x = 0.8 and 3: no support pair within reach 0.9 spans the gap of 2.2 m");
 }
 
 TEST_CASE("an unknown planner is refused", "[search]") {

@@ -1,0 +1,193 @@
+#include "planner/anytime_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gaits/rules.hpp"
+#include "planner/shorten.hpp"
+
+namespace surefoot::planner {
+
+namespace {
+
+/// Wider and finer by turns. Measured on the canned scenes: the first gives a plan in milliseconds, the third nearly
+/// always one that the rest does not beat.
+struct Stage {
+  int width, level;
+};
+constexpr Stage stages[] = {{8, 0},   {32, 0},   {128, 1},  {512, 1},  {256, 2},  {1024, 2},
+                            {512, 3}, {4096, 2}, {2048, 3}, {8192, 3}, {4096, 4}, {1 << 28, 4}};
+
+constexpr double first_raise = 1.5;      ///< of the disturbances beyond what the plan bears, while that succeeds
+constexpr double scale_precision = 0.02; ///< relative: a plan safer by less is not looked for
+constexpr double greatest_scale = 1e6;   ///< beyond, a plan bears anything
+constexpr std::uint64_t safety_stall = 60000;  ///< work without progress after which a scale counts as refused
+constexpr double straight_gain = 1e-3;   ///< relative: a shorter way of the COM that is worth another sweep
+
+/// Seeds other than 1: spacings between 0.8 and 1.2 of the standard.
+double spacing_factor(std::uint32_t seed) {
+  constexpr double golden = 0.6180339887498949;
+  const double x = golden * (seed - 1.0);
+  return 1 + 0.4 * (x - std::floor(x + 0.5));
+}
+
+/// From any COM that a plan may begin with to the goal [m]; a lower bound.
+double least_distance(const gaits::Scene& scene) {
+  if (scene.start.com) return scene.goal.distance(*scene.start.com);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& foot : scene.start.feet)
+    if (foot) least = std::min(least, scene.goal.distance(foot->position));
+  return std::max(0.0, least - scene.robot.reach_max);
+}
+
+double way_of_com(const std::vector<Node>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += (path[i].com - path[i - 1].com).norm();
+  return sum;
+}
+
+}  // namespace
+
+AnytimeSearch::AnytimeSearch(StepProposals& proposals, std::vector<Node> starts, AnytimeOptions options)
+    : proposals_(&proposals), starts_(std::move(starts)), options_(std::move(options)) {
+  lattice_ = {0.15 * spacing_factor(options_.seed), 0.02, 5};
+  if (options_.objective == "safety") {
+    const gaits::Scene& scene = proposals_->scene();
+    for (const Node& start : starts_) {
+      const auto oracle = gaits::oracle_of(scene, start.stance().feet);
+      start_factors_.push_back(gaits::safety_factor(scene, oracle, start.com).value);
+      refused_ = std::max(refused_, start_factors_.back());  // no plan is safer than its first stance
+    }
+  }
+  begin(1);
+}
+
+AnytimeSearch::~AnytimeSearch() = default;
+
+/// A new lattice for disturbances of another size. False if no start bears them.
+bool AnytimeSearch::begin(double scale) {
+  if (layers_) spent_ += layers_->work();
+  std::vector<Node> starts;
+  for (std::size_t i = 0; i < starts_.size(); ++i)
+    if (scale <= 1 || start_factors_[i] > scale) starts.push_back(starts_[i]);
+  stability::DisturbanceBox box = proposals_->scene().disturbance;
+  box.kappa *= scale, box.nu *= scale;
+  scale_ = scale;
+  stage_ = 0;
+  layers_ = std::make_unique<LayerSearch>(*proposals_, starts, lattice_, box);
+  return !starts.empty();
+}
+
+LayerSearch::Limits AnytimeSearch::limits(std::uint64_t until) const {
+  LayerSearch::Limits limits;
+  limits.width = stages[stage_].width;
+  limits.level = stages[stage_].level;
+  limits.work = until > spent_ ? until - spent_ : 0;
+  limits.stop = options_.stop;
+  return limits;
+}
+
+bool AnytimeSearch::find(std::uint64_t stall) {
+  if (!path_.empty()) return true;
+  LayerSearch::Limits first = limits(std::numeric_limits<std::uint64_t>::max());
+  first.stall = stall;
+  return layers_->run(first) == LayerSearch::End::found && take(layers_->path());
+}
+
+double AnytimeSearch::least_factor(const std::vector<Node>& path) const {
+  gaits::Plan plan;
+  write_path(path, plan);
+  gaits::rate(proposals_->scene(), plan);
+  return plan.safety_factor;
+}
+
+/// Keeps a path if it betters the objective.
+bool AnytimeSearch::take(std::vector<Node> path) {
+  path = shorten(*proposals_, std::move(path), options_.objective);
+  if (path_.empty()) {
+    path_ = std::move(path);
+    ++improvements_;
+    if (options_.objective == "safety") factor_ = least_factor(path_);
+    return true;
+  }
+  bool better = path.size() < path_.size();
+  if (options_.objective == "distance") better = way_of_com(path) < way_of_com(path_);
+  if (options_.objective == "safety") {
+    const double factor = least_factor(path);
+    better = factor > factor_ || (better && factor >= scale_);
+    if (better) factor_ = factor;
+  }
+  if (better) path_ = std::move(path), ++improvements_;
+  return better;
+}
+
+bool AnytimeSearch::improve(std::uint64_t work_more) {
+  const std::uint64_t until = work() + work_more;
+  if (path_.empty()) return false;
+  if (options_.objective == "safety" && !scale_settled_ && improve_safety(until)) return true;
+  return improve_steps(until);
+}
+
+/// Fewer steps on the lattice in use. False if the schedule is at its end.
+bool AnytimeSearch::improve_steps(std::uint64_t until) {
+  while (work() < until && !options_.stop()) {
+    LayerSearch::Limits now = limits(until);
+    now.below = static_cast<int>(path_.size()) - 1;
+    finest_ = std::max(finest_, now.level);
+    switch (layers_->run(now)) {
+      case LayerSearch::End::found:
+        take(layers_->path());
+        break;
+      case LayerSearch::End::exhausted:
+        exhausted_level_ = now.level;
+        while (stage_ + 1 < std::size(stages) && stages[stage_].level <= exhausted_level_) ++stage_;
+        if (stages[stage_].level <= exhausted_level_) return false;
+        break;
+      case LayerSearch::End::width:
+        if (stage_ + 1 == std::size(stages)) return false;
+        ++stage_;
+        break;
+      case LayerSearch::End::limit:
+        return true;
+    }
+  }
+  return true;
+}
+
+/// Raises the size of the disturbances until no plan is found, then halves the interval. True while that goes on.
+bool AnytimeSearch::improve_safety(std::uint64_t until) {
+  const auto& box = proposals_->scene().disturbance;
+  const bool nothing_to_scale = box.kappa == 0 && box.nu == 0;
+  while (!nothing_to_scale && factor_ < greatest_scale && work() < until && !options_.stop()) {
+    const double base = std::max(factor_, 1.0);
+    if (refused_ < base * (1 + scale_precision)) break;
+    const double scale = std::min(std::sqrt(base * refused_), first_raise * base);
+    bool found = false;
+    if (begin(scale)) {
+      LayerSearch::Limits now = limits(until);
+      now.stall = safety_stall;
+      found = layers_->run(now) == LayerSearch::End::found && take(layers_->path());
+      if (!found && work() >= until) return true;
+    }
+    if (!found) refused_ = scale;
+  }
+  if (work() >= until || options_.stop()) return true;
+  scale_settled_ = true;
+  begin(std::clamp(factor_ * (1 - 1e-9), 1.0, greatest_scale));
+  return false;
+}
+
+Eigen::Vector2d AnytimeSearch::nearest_com() const { return layers_->best(); }
+
+gaits::Resolution AnytimeSearch::resolution() const {
+  gaits::Resolution resolution;
+  const auto& scene = proposals_->scene();
+  resolution.foothold_spacing = std::ldexp(lattice_.spacing * scene.robot.reach_max, -finest_);
+  resolution.com_columns = lattice_.columns << finest_;
+  resolution.fewest_on_lattice = exhausted_level_ >= finest_;
+  resolution.least_steps = least_steps(least_distance(scene), scene.robot.reach_max);
+  return resolution;
+}
+
+}  // namespace surefoot::planner

@@ -1,0 +1,77 @@
+// The planner "Layers": a first plan soon, then better ones until its work is done. It searches a lattice of footholds
+// and COMs (layer_search.hpp), first narrow and coarse, then wider and finer by turns, for whatever improves the
+// objective:
+//   steps     fewer steps than the best plan so far;
+//   safety    stable under disturbances larger than the scene's, by a factor that is raised and halved towards the
+//             largest that a plan is found for; then fewer steps at that factor;
+//   distance  as for steps, the COM's path then drawn tight, and the shortest kept.
+// With unlimited work the lattice becomes as fine as doubles: in the limit no plan is missed whose steps stay legal when
+// feet and COMs move a little. Deterministic for a seed: limits are counted in work, not in time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gaits/plan.hpp"
+#include "planner/layer_search.hpp"
+#include "planner/node.hpp"
+#include "planner/step_proposals.hpp"
+
+namespace surefoot::planner {
+
+struct AnytimeOptions {
+  std::uint32_t seed = 1;           ///< 1 is the standard lattice, others are up to a fifth finer or coarser
+  std::string objective = "steps";  ///< steps, safety or distance
+  /// Asked now and then; true ends the search with what it has.
+  std::function<bool()> stop = [] { return false; };
+};
+
+class AnytimeSearch {
+ public:
+  /// The starts are legal stances outside the goal.
+  AnytimeSearch(StepProposals& proposals, std::vector<Node> starts, AnytimeOptions options);
+  ~AnytimeSearch();
+
+  /// Looks for a first plan until `stall` units of work have brought it no nearer to the goal. May be called again
+  /// with more. True once there is a plan.
+  bool find(std::uint64_t stall);
+  /// Betters the plan by about `work` units of work. True as long as more work might better it.
+  bool improve(std::uint64_t work);
+
+  const std::vector<Node>& path() const { return path_; }
+  int improvements() const { return improvements_; }  ///< how many plans were better than all before
+  /// How near to the goal the search came, while there is no plan.
+  Eigen::Vector2d nearest_com() const;
+  std::uint64_t work() const { return spent_ + (layers_ ? layers_->work() : 0); }
+  gaits::Resolution resolution() const;
+
+ private:
+  LayerSearch::Limits limits(std::uint64_t until) const;
+  bool begin(double scale);
+  bool take(std::vector<Node> path);
+  bool improve_steps(std::uint64_t until);
+  bool improve_safety(std::uint64_t until);
+  double least_factor(const std::vector<Node>& path) const;
+
+  StepProposals* proposals_;
+  std::vector<Node> starts_;
+  std::vector<double> start_factors_;  ///< safety factors of the starts; only for objective safety
+  AnytimeOptions options_;
+  LatticeResolution lattice_;
+  std::unique_ptr<LayerSearch> layers_;
+  std::vector<Node> path_;
+  std::uint64_t spent_ = 0;     ///< work of lattices given up
+  std::size_t stage_ = 0;       ///< of the schedule
+  int finest_ = 0;              ///< level begun
+  int exhausted_level_ = -1;    ///< level on which no plan of fewer steps exists
+  double scale_ = 1;            ///< of the disturbances on the lattice in use
+  double factor_ = 0;           ///< least safety factor of the plan
+  double refused_ = 0;          ///< scale for which there is no plan, or none was found
+  bool scale_settled_ = false;
+  int improvements_ = 0;
+};
+
+}  // namespace surefoot::planner

@@ -1,0 +1,288 @@
+#include "planner/layer_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surefoot::planner {
+
+using Eigen::Vector2d;
+
+namespace {
+
+/// Weight of the feet against the COM in the order of a layer: of two stances with the same COM the one whose feet are
+/// ahead has come farther.
+constexpr double feet_share = 0.3;
+constexpr unsigned stop_interval = 64;  ///< looks at the limits per question whether to stop, which reads a clock
+constexpr int width_factor = 4;  ///< by which the layers before a dead end are widened each time it is met
+
+
+}  // namespace
+
+int least_steps(double distance, double reach_max) {
+  if (!(distance > 0)) return 0;
+  const double triples = std::ceil(distance / (2 * reach_max) * (1 - 1e-9));
+  return triples < 1e8 ? 3 * (static_cast<int>(triples) - 1) + 1 : 300000000;
+}
+
+LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& starts, const LatticeResolution& resolution,
+                         const stability::DisturbanceBox& box)
+    : proposals_(&proposals),
+      scene_(&proposals.scene()),
+      robot_(proposals.robot()),
+      box_(box),
+      lattice_(scene_->terrain, resolution.spacing * robot_.reach_max, resolution.inset * robot_.reach_max),
+      coms_(*scene_, lattice_, resolution.columns, box),
+      starts_(starts) {
+  layers_.resize(1);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const Node& start = starts[i];
+    std::array<int, gaits::leg_count> number{-1, -1, -1};
+    for (int leg = 0; leg < gaits::leg_count; ++leg)
+      if (start.feet[leg]) number[leg] = lattice_.add(*start.feet[leg]);
+    const auto [a, b] = start.support();
+    const std::int32_t com = coms_.add(number[a], number[b], start.com);
+    nodes_.push_back({static_cast<std::int32_t>(coms_.pairs()) - 1, com, -1, 0, number[start.free_leg],
+                      static_cast<std::int32_t>(i)});
+    coms_.com(com).node = static_cast<std::int32_t>(nodes_.size()) - 1;
+    layers_[0].nodes.push_back(coms_.com(com).node);
+  }
+}
+
+float LayerSearch::key(const Vector2d& com, std::int32_t pair) const {
+  const auto& feet = coms_[pair];
+  const Vector2d middle = 0.5 * (foot(feet.first_foot).position + foot(feet.second_foot).position);
+  return static_cast<float>(scene_->goal.distance((1 - feet_share) * com + feet_share * middle));
+}
+
+void LayerSearch::put_back(std::size_t k, const Entry& entry) {
+  auto& heap = layers_[k].heap;
+  heap.push_back(entry);
+  std::push_heap(heap.begin(), heap.end());
+}
+
+bool LayerSearch::placement_is_legal(const SearchNode& node, std::int32_t landing) {
+  ++checked_;
+  const Vector2d& com = coms_.com(node.com).at;
+  if (!scene_->terrain.leg_is_free(com, foot(landing))) return false;
+  return node.old_foot < 0 || gaits::swing_is_free(*scene_, com, foot(node.old_foot).position, foot(landing).position);
+}
+
+/// Steps that land at one place, for COMs of one level.
+void LayerSearch::push_steps(std::int32_t number, std::int32_t landing, int level) {
+  const SearchNode& node = nodes_[number];
+  const int feet[] = {coms_[node.pair].first_foot, coms_[node.pair].second_foot};
+  for (const int k : {0, 1}) {
+    // Until the pair is looked at, its COM may be anywhere within reach: say in the middle of its feet.
+    const Vector2d middle = 0.5 * (foot(landing).position + foot(feet[1 - k]).position);
+    Entry entry{static_cast<float>(scene_->goal.distance(middle)), number, landing, feet[k], -1, level, 0, entries_++};
+    put_back(static_cast<std::size_t>(node.layer) + 1, entry);
+  }
+  if (level == 0) return;
+  // The leg just placed is lifted again: the COM moves, the support stays. Seldom of use.
+  const Vector2d middle = 0.5 * (foot(feet[0]).position + foot(feet[1]).position);
+  Entry entry{static_cast<float>(scene_->goal.distance(middle)), number, landing, landing, -1, level, 0, entries_++};
+  put_back(static_cast<std::size_t>(node.layer) + 1, entry);
+}
+
+/// Pushes what levels up to this one add to what has been pushed before.
+void LayerSearch::expand(std::int32_t number, int level) {
+  const SearchNode node = nodes_[number];
+  if (node.level >= level) return;
+  nodes_[number].level = level;
+  if (layers_.size() < static_cast<std::size_t>(node.layer) + 2) layers_.resize(static_cast<std::size_t>(node.layer) + 2);
+  const auto& pair = coms_[node.pair];
+  lattice_.look_from(coms_.com(node.com).at, robot_.reach_min, robot_.reach_max);
+  for (int of_landing = 0; of_landing <= level; ++of_landing) {
+    lattice_.list(of_landing, landings_);
+    for (const int landing : landings_) {
+      const Vector2d& at = foot(landing).position;
+      if (landing == pair.first_foot || landing == pair.second_foot) continue;
+      if (at == foot(pair.first_foot).position || at == foot(pair.second_foot).position) continue;
+      if (!placement_is_legal(node, landing)) continue;
+      for (int of_com = 0; of_com <= level; ++of_com)
+        if (std::max(of_landing, of_com) > node.level) push_steps(number, landing, of_com);
+    }
+  }
+}
+
+bool LayerSearch::step_is_legal(const Entry& entry, std::int32_t number) {
+  ++checked_;
+  const SearchNode& node = nodes_[entry.node];
+  const Vector2d &from = coms_.com(node.com).at, &to = coms_.com(number).at;
+  gaits::Feet three;
+  three[0] = foot(coms_[node.pair].first_foot);
+  three[1] = foot(coms_[node.pair].second_foot);
+  three[2] = foot(entry.landing);
+  if (!gaits::within_reach(robot_, three, from, to)) return false;
+  if (!scene_->terrain.leg_is_free(to, foot(entry.lifted))) return false;
+  if (scene_->terrain.distance(from, to, robot_.clearance) < robot_.clearance) return false;
+  return gaits::is_stable(*scene_, gaits::oracle_of(*scene_, three, box_), from, to);
+}
+
+/// Takes the best step of a layer: gives it up, finds it to be less good than it seemed and puts it back, or checks it;
+/// if it is legal, it leads to a new stance of the layer.
+void LayerSearch::pop(std::size_t k, const Limits& limits) {
+  auto& heap = layers_[k].heap;
+  std::pop_heap(heap.begin(), heap.end());
+  Entry entry = heap.back();
+  heap.pop_back();
+  const int layer = static_cast<int>(k);
+  if (nodes_[entry.node].layer + 1 != layer) return;  // since then it was reached sooner: its steps are there
+  if (entry.pair < 0) {
+    const auto& from = coms_[nodes_[entry.node].pair];
+    const int kept = from.first_foot == entry.lifted ? from.second_foot : from.first_foot;
+    const int other = entry.lifted == entry.landing ? from.first_foot : entry.landing;
+    entry.pair = coms_.pair(kept == other ? from.second_foot : kept, other, entry.level);
+  }
+  const auto& pair = coms_[entry.pair];
+  const Vector2d& lifted = foot(entry.lifted).position;
+  const Vector2d& from = coms_.com(nodes_[entry.node].com).at;
+  for (; entry.next < pair.count; ++entry.next) {
+    ++scanned_;
+    const std::int32_t number = pair.first + entry.next;
+    const auto& com = coms_.com(number);
+    if (com.node >= 0 && nodes_[com.node].layer <= layer) continue;
+    if (layer + least_steps(com.to_goal, robot_.reach_max) >= limits.below) return;  // so are those behind it
+    if (!gaits::within_reach(robot_, lifted, from, com.at)) continue;
+    if (const float true_key = key(com.at, entry.pair); true_key > entry.key) {
+      entry.key = true_key;
+      return put_back(k, entry);
+    }
+    ++entry.next;
+    if (entry.next < pair.count) put_back(k, entry);
+    if (step_is_legal(entry, number)) reach(k, entry, number);
+    return;
+  }
+}
+
+void LayerSearch::reach(std::size_t k, const Entry& entry, std::int32_t number) {
+  auto& com = coms_.com(number);
+  if (com.node < 0) {
+    com.node = static_cast<std::int32_t>(nodes_.size());
+    nodes_.push_back({});
+  }
+  nodes_[com.node] = {entry.pair, number, entry.node, static_cast<std::int32_t>(k), entry.lifted, -1};
+  layers_[k].nodes.push_back(com.node);
+  if (const float at = key(com.at, entry.pair); at < front_.key) front_ = {at, k, work()};
+  if (scene_->goal.contains(com.at)) goal_ = com.node;
+}
+
+bool LayerSearch::run_layer(std::size_t k, const Limits& limits) {
+  const auto expand_waiting = [&] {
+    for (Layer* layer = &layers_[k]; layer->raised < layer->nodes.size(); layer = &layers_[k]) {
+      if (is_out(limits)) return;
+      if (layer->raised >= static_cast<std::size_t>(layer->width)) return;
+      const std::int32_t node = layer->nodes[layer->raised++];
+      if (nodes_[node].layer == static_cast<std::int32_t>(k)) expand(node, layer->level);
+    }
+  };
+  expand_waiting();
+  while (layers_[k].nodes.size() < static_cast<std::size_t>(layers_[k].width) && !layers_[k].heap.empty()) {
+    if (is_out(limits)) return false;
+    pop(k, limits);
+    if (goal_ >= 0) return true;
+    expand_waiting();
+  }
+  return false;
+}
+
+bool LayerSearch::any_open(std::size_t end) const {
+  return std::any_of(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(end), [](const Layer& layer) {
+    return !layer.heap.empty() || layer.raised < layer.nodes.size();
+  });
+}
+
+/// A dead end is met where no step is left, or where layer after layer comes no nearer to the goal. Then the layers
+class LayerSearch::DeadEnd {
+ public:
+  bool is_met(std::size_t k, const Front& front) const { return k > front.layer + patience * reach(front); }
+  void count(const Front& front) {
+    times_ = front.key < key_ ? 1 : times_ + 1;
+    key_ = front.key;
+  }
+  std::size_t back() const { return std::size_t{4} << std::min(times_, 40); }
+  int level() const { return times_ / 2; }
+
+ private:
+  static constexpr std::size_t patience = 8;
+  std::size_t reach(const Front& front) const { return front.key < key_ ? 1 : std::size_t{1} << std::min(times_, 40); }
+  float key_ = std::numeric_limits<float>::infinity();
+  int times_ = 0;
+};
+
+bool LayerSearch::is_out(const Limits& limits) const {
+  const std::uint64_t done = work();
+  return done >= limits.work || (done - front_.work >= limits.stall && limits.below == no_bound) ||
+         (++asked_to_stop_ % stop_interval == 0 && limits.stop());
+}
+
+LayerSearch::End LayerSearch::run(const Limits& limits) {
+  goal_ = -1;
+  const auto prepare = [&limits](Layer& layer) {
+    if (layer.level < limits.level) layer.level = limits.level, layer.raised = 0;
+    layer.width = std::max(layer.width, limits.width);
+  };
+  const bool first = limits.below == no_bound;
+  const auto end = [&] { return std::min<std::size_t>(layers_.size(), static_cast<std::size_t>(limits.below)); };
+  std::size_t prepared = 0;
+  DeadEnd dead_end;
+  for (std::size_t k = 0;;) {
+    for (; k < end() && !(first && dead_end.is_met(k, front_)); ++k) {
+      for (; prepared <= k; ++prepared) prepare(layers_[prepared]);
+      if (run_layer(k, limits)) return End::found;
+      if (is_out(limits)) return End::limit;
+    }
+    if (!first) return any_open(end()) ? End::width : End::exhausted;
+    dead_end.count(front_);
+    const std::size_t last = std::min(k, end() - 1);
+    k = front_.layer > dead_end.back() ? front_.layer - dead_end.back() : 0;
+    const int level = std::min(limits.level + dead_end.level(), FootholdLattice::levels - 1);
+    for (std::size_t i = k; i <= last; ++i) {
+      Layer& layer = layers_[i];
+      layer.width = std::min(width_factor * layer.width, 1 << 28);
+      if (layer.level < level) layer.level = level, layer.raised = 0;
+    }
+    if (k == 0 && level + 1 == FootholdLattice::levels && !any_open(end())) return End::exhausted;
+  }
+}
+
+Vector2d LayerSearch::best() const {
+  const auto nearer = [this](const SearchNode& a, const SearchNode& b) {
+    return coms_.com(a.com).to_goal < coms_.com(b.com).to_goal;
+  };
+  return coms_.com(std::min_element(nodes_.begin(), nodes_.end(), nearer)->com).at;
+}
+
+std::vector<Node> LayerSearch::path() const {
+  std::vector<std::int32_t> chain;
+  for (std::int32_t i = goal_; i >= 0; i = nodes_[i].parent) chain.push_back(i);
+  if (chain.empty()) return {};
+  std::vector<Node> path{starts_[nodes_[chain.back()].start]};
+  // Legs by the foothold they stand on.
+  std::array<int, gaits::leg_count> number{-1, -1, -1};
+  const auto [a, b] = path[0].support();
+  const auto& pair = coms_[nodes_[chain.back()].pair];
+  const bool in_order = lattice_[pair.first_foot].position == path[0].feet[a]->position;
+  number[a] = in_order ? pair.first_foot : pair.second_foot;
+  number[b] = in_order ? pair.second_foot : pair.first_foot;
+  for (std::size_t i = chain.size() - 1; i-- > 0;) {
+    const SearchNode& node = nodes_[chain[i]];
+    const auto& to = coms_[node.pair];
+    Node next = path.back();
+    const int placed = next.free_leg;
+    const auto stands = [&](int foothold) {
+      return number[(placed + 1) % gaits::leg_count] == foothold || number[(placed + 2) % gaits::leg_count] == foothold;
+    };
+    const int landing = !stands(to.first_foot) ? to.first_foot : !stands(to.second_foot) ? to.second_foot : node.old_foot;
+    number[placed] = landing;
+    next.feet[placed] = lattice_[landing];
+    for (int leg = 0; leg < gaits::leg_count; ++leg)
+      if (number[leg] == node.old_foot) next.free_leg = leg;
+    next.com = coms_.com(node.com).at;
+    next.id = proposals_->next_id();
+    path.push_back(next);
+  }
+  return path;
+}
+
+}  // namespace surefoot::planner

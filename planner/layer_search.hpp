@@ -1,0 +1,124 @@
+// Fewest steps over a lattice of footholds and COMs, layer by layer: layer k holds the stances first reached in k
+// steps. A pass expands the most advanced stances of every layer, up to a width; the next pass is wider, and what a
+// narrower one left waits in its layer (complete anytime beam search: W. Zhang, AAAI 1998). Steps are checked when they
+// are about to be used, never before. When no step is left that could make the plan shorter, the plan is the shortest of
+// the lattice: `exhausted` says so. Deterministic.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "planner/com_candidates.hpp"
+#include "planner/foothold_lattice.hpp"
+#include "planner/node.hpp"
+#include "planner/step_proposals.hpp"
+
+namespace surefoot::planner {
+
+/// On level 0; every further level is twice as fine.
+struct LatticeResolution {
+  double spacing = 0.1;  ///< of footholds along a segment, in reach_max
+  double inset = 0.02;   ///< of the outermost from the segment's ends, in reach_max
+  int columns = 5;       ///< of COMs across a pair of footholds
+};
+
+/// Steps that any plan needs at least to bring the COM a distance nearer to the goal. Of any three consecutive
+/// transfers one foot is planted in all, and its four COMs are within its reach: so three steps gain at most
+/// 2 reach_max.
+int least_steps(double distance, double reach_max);
+
+class LayerSearch {
+ public:
+  /// Steps that are stable under the disturbances of `box`. The starts are legal stances outside the goal.
+  LayerSearch(StepProposals& proposals, const std::vector<Node>& starts, const LatticeResolution& resolution,
+              const stability::DisturbanceBox& box);
+
+  static constexpr int no_bound = std::numeric_limits<int>::max();
+  struct Limits {
+    int width = 8;                 ///< stances expanded per layer
+    int level = 0;                 ///< of the lattice; a dead end is searched on finer levels than this
+    int below = no_bound;          ///< only plans of fewer steps are of interest
+    std::uint64_t work = std::numeric_limits<std::uint64_t>::max();   ///< in all, as work() counts
+    std::uint64_t stall = std::numeric_limits<std::uint64_t>::max();  ///< since the search last came nearer to the goal
+    std::function<bool()> stop = [] { return false; };  ///< asked often
+  };
+  enum class End { found, exhausted, width, limit };
+  /// Goes on from where it was left. `found`: path() is shorter than `below`. `exhausted`: the lattice has no such
+  /// plan. `width`: all layers are as wide as allowed. `limit`: work, stall or stop.
+  End run(const Limits& limits);
+  std::vector<Node> path() const;
+
+  /// The COM nearest to the goal among all stances reached.
+  Eigen::Vector2d best() const;
+  /// Landings and steps checked, COMs asked about, eighths for steps noted and COMs passed over: about a microsecond each. The same on every machine.
+  std::uint64_t work() const { return checked_ + coms_.asked() + (entries_ + scanned_) / 8; }
+  std::size_t stances() const { return nodes_.size(); }
+
+ private:
+  struct SearchNode {
+    std::int32_t pair, com, parent;
+    std::int32_t layer;
+    std::int32_t old_foot;  ///< where the free leg was lifted from; -1: nowhere
+    std::int32_t start;     ///< which of the starts, at layer 0
+    int level = -1;         ///< that it was expanded on
+  };
+  /// Steps from a stance that land at one place and lift one leg: all COMs of the pair that is left.
+  struct Entry {
+    float key;                   ///< [m], smaller first
+    std::int32_t node;
+    std::int32_t landing, lifted;
+    std::int32_t pair = -1;      ///< not yet asked for
+    int level = 0;               ///< of the COMs
+    std::int32_t next = 0;       ///< the COM whose turn it is
+    bool operator<(const Entry& other) const {  // for a heap with the smallest on top; ties by age
+      return key != other.key ? key > other.key : number > other.number;
+    }
+    std::uint64_t number = 0;
+  };
+  struct Layer {
+    std::vector<Entry> heap;
+    std::vector<std::int32_t> nodes;  ///< in the order in which they were reached; some have left for earlier layers
+    std::size_t raised = 0;           ///< of these, how many have been expanded on the layer's level
+    int level = 0, width = 0;
+  };
+
+  /// The stance with the smallest key so far.
+  struct Front {
+    float key = std::numeric_limits<float>::infinity();
+    std::size_t layer = 0;
+    std::uint64_t work = 0;
+  };
+  class DeadEnd;
+
+  bool run_layer(std::size_t k, const Limits& limits);
+  void pop(std::size_t k, const Limits& limits);
+  void reach(std::size_t k, const Entry& entry, std::int32_t com);
+  void put_back(std::size_t k, const Entry& entry);
+  void expand(std::int32_t node, int level);
+  void push_steps(std::int32_t node, std::int32_t landing, int level);
+  bool any_open(std::size_t end) const;
+  bool is_out(const Limits& limits) const;
+  bool step_is_legal(const Entry& entry, std::int32_t com);
+  bool placement_is_legal(const SearchNode& node, std::int32_t landing);
+  const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }
+  float key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
+
+  StepProposals* proposals_;
+  const gaits::Scene* scene_;
+  gaits::Robot robot_;
+  stability::DisturbanceBox box_;
+  FootholdLattice lattice_;
+  ComCandidates coms_;
+  std::vector<Node> starts_;
+  std::vector<SearchNode> nodes_;
+  std::vector<Layer> layers_;
+  std::vector<int> landings_;
+  std::int32_t goal_ = -1;
+  Front front_;
+  mutable unsigned asked_to_stop_ = 0;
+  std::uint64_t checked_ = 0, scanned_ = 0, entries_ = 0;
+};
+
+}  // namespace surefoot::planner

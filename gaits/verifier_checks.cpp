@@ -25,13 +25,19 @@ bool same_factor(double stated, double found) {
 }
 
 std::optional<Foot> Checks::rebuild(const std::string& place, int leg, const terrain::Foothold& stated) {
-  bool chain_exists = false;
-  double chain_length = 0;
-  for (const Segment& segment : scene_.terrain.segments()) {
-    if (segment.chain != stated.chain) continue;
-    chain_exists = true;
-    chain_length = std::max(chain_length, segment.s_begin + segment.length);
-    if (!(stated.s > segment.s_begin && stated.s < segment.s_begin + segment.length)) continue;
+  // Segments lie in the order of chains and arc lengths: the last one that begins before the foot.
+  const std::vector<Segment>& segments = scene_.terrain.segments();
+  const auto after = std::partition_point(segments.begin(), segments.end(), [&stated](const Segment& segment) {
+    return segment.chain < stated.chain || (segment.chain == stated.chain && segment.s_begin < stated.s);
+  });
+  const auto end = std::partition_point(after, segments.end(), [&stated](const Segment& segment) {
+    return segment.chain <= stated.chain;
+  });
+  const bool chain_exists = end != segments.begin() && std::prev(end)->chain == stated.chain;
+  const double chain_length = chain_exists ? std::prev(end)->s_begin + std::prev(end)->length : 0;
+  if (after != segments.begin() && std::prev(after)->chain == stated.chain &&
+      stated.s < std::prev(after)->s_begin + std::prev(after)->length) {
+    const Segment& segment = *std::prev(after);
     if (!segment.surface.foothold) {
       note(Rule::foothold, place, "foot {} stands on segment {} of chain {}, where no foot may stand", leg + 1,
            segment.index, segment.chain);
@@ -86,7 +92,7 @@ void Checks::check_reach(const std::string& place, const Posture& feet, const Po
 void Checks::check_clearance(const std::string& place, const Point& from, const Point& to) {
   double least = std::numeric_limits<double>::infinity();
   const Segment* nearest = nullptr;
-  for (const Segment* segment : terrain_near(scene_.terrain, {from, to}, scene_.robot.clearance)) {
+  for (const Segment* segment : strips_.near({from, to}, scene_.robot.clearance)) {
     const double here = distance(from, to, segment->a, segment->b);
     if (here < least) {
       least = here;
@@ -106,7 +112,7 @@ void Checks::check_leg(const std::string& place, const char* when, int leg, cons
     note(Rule::leg_visibility, place, "at {} leg {} comes through the ground it stands on (chain {}, segment {})", when,
          leg + 1, foot.segment->chain, foot.segment->index);
   }
-  for (const Segment* segment : terrain_near(scene_.terrain, {com, foot.position}, 0)) {
+  for (const Segment* segment : strips_.near({com, foot.position}, 0)) {
     if (segment == foot.segment || !meet(com, foot.position, segment->a, segment->b)) continue;
     note(Rule::leg_visibility, place, "at {} leg {} from {} to {} meets chain {}, segment {}", when, leg + 1, show(com),
          show(foot.position), segment->chain, segment->index);
@@ -119,7 +125,7 @@ void Checks::check_swing(const std::string& place, const Point& com, const Foot&
   if (radius <= 0) return;
   const Point from = old_foot.position - com, to = new_foot.position - com;
   const Segment *hit_left = nullptr, *hit_right = nullptr;
-  for (const Segment* segment : terrain_near(scene_.terrain, {com}, radius)) {
+  for (const Segment* segment : strips_.near({com}, radius)) {
     if (!hit_left && meets_sector(com, radius, from, to, segment->a, segment->b)) hit_left = segment;
     if (!hit_right && meets_sector(com, radius, to, from, segment->a, segment->b)) hit_right = segment;
   }

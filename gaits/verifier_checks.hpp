@@ -26,7 +26,8 @@ using Posture = std::array<std::optional<Foot>, leg_count>;
 
 class Checks {
  public:
-  explicit Checks(const Scene& scene) : scene_(scene), slack_(verifier_slack * scene.robot.reach_max) {}
+  explicit Checks(const Scene& scene)
+      : scene_(scene), strips_(scene.terrain), slack_(verifier_slack * scene.robot.reach_max) {}
 
   template <typename... Parts>
   void note(Rule rule, const std::string& place, fmt::format_string<Parts...> format, Parts&&... parts) {
@@ -60,6 +61,7 @@ class Checks {
   double factor(const stability::RobustOracle& oracle, const Point& com) const;
 
   const Scene& scene_;
+  Strips strips_;
   const double slack_;
   double least_factor_ = std::numeric_limits<double>::infinity();
   std::vector<Fault> faults_;

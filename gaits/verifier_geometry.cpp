@@ -81,8 +81,31 @@ bool meets_sector(const Point& centre, double radius, const Point& from, const P
   return turn(last, from) <= 2 * std::numbers::pi - sweep;
 }
 
-std::vector<const terrain::Segment*> terrain_near(const terrain::Terrain& terrain, const std::vector<Point>& points,
-                                                  double margin) {
+// Borders are places where segments begin, every sixteenth of them; a terrain most of whose segments cross many strips is
+// left in one.
+Strips::Strips(const terrain::Terrain& terrain) {
+  constexpr std::size_t per_strip = 16, most_entries_per_segment = 16;
+  std::vector<double> begins;
+  for (const terrain::Segment& segment : terrain.segments()) begins.push_back(std::min(segment.a.x(), segment.b.x()));
+  std::sort(begins.begin(), begins.end());
+  for (std::size_t i = per_strip; i < begins.size(); i += per_strip) borders_.push_back(begins[i]);
+  std::size_t entries = 0;
+  for (const terrain::Segment& segment : terrain.segments())
+    entries += 1 + strip_of(std::max(segment.a.x(), segment.b.x())) - strip_of(std::min(segment.a.x(), segment.b.x()));
+  if (entries > most_entries_per_segment * begins.size()) borders_.clear();
+  strips_.resize(borders_.size() + 1);
+  for (const terrain::Segment& segment : terrain.segments()) {
+    const std::size_t last = strip_of(std::max(segment.a.x(), segment.b.x()));
+    for (std::size_t k = strip_of(std::min(segment.a.x(), segment.b.x())); k <= last; ++k)
+      strips_[k].push_back(&segment);
+  }
+}
+
+std::size_t Strips::strip_of(double x) const {
+  return static_cast<std::size_t>(std::upper_bound(borders_.begin(), borders_.end(), x) - borders_.begin());
+}
+
+std::vector<const terrain::Segment*> Strips::near(const std::vector<Point>& points, double margin) const {
   Point low = points.front(), high = points.front();
   for (const Point& point : points) {
     low = low.cwiseMin(point);
@@ -91,12 +114,15 @@ std::vector<const terrain::Segment*> terrain_near(const terrain::Terrain& terrai
   low.array() -= margin;
   high.array() += margin;
   std::vector<const terrain::Segment*> near;
-  for (const terrain::Segment& segment : terrain.segments()) {
-    if (std::max(segment.a.x(), segment.b.x()) >= low.x() && std::min(segment.a.x(), segment.b.x()) <= high.x() &&
-        std::max(segment.a.y(), segment.b.y()) >= low.y() && std::min(segment.a.y(), segment.b.y()) <= high.y()) {
-      near.push_back(&segment);
+  const std::size_t first = strip_of(low.x()), last = strip_of(high.x());
+  for (std::size_t k = first; k <= last; ++k)
+    for (const terrain::Segment* segment : strips_[k]) {
+      const double begin = std::min(segment->a.x(), segment->b.x());
+      if (k != std::max(first, strip_of(begin))) continue;  // seen in a strip before
+      if (std::max(segment->a.x(), segment->b.x()) >= low.x() && begin <= high.x() &&
+          std::max(segment->a.y(), segment->b.y()) >= low.y() && std::min(segment->a.y(), segment->b.y()) <= high.y())
+        near.push_back(segment);
     }
-  }
   return near;
 }
 

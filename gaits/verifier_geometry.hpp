@@ -1,4 +1,4 @@
-// Plane geometry for the verifier alone: formulas of its own, no spatial index, none of the predicates that the search
+// Plane geometry for the verifier alone: formulas of its own, no tree of boxes, none of the predicates that the search
 // uses. Signs of orientation are taken in long double, whose rounding (about 1e-19 relative) is the only error; a touch
 // counts as a meeting.
 #pragma once
@@ -30,8 +30,18 @@ double distance(const Point& p, const Point& q, const Point& a, const Point& b);
 bool meets_sector(const Point& centre, double radius, const Point& from, const Point& to, const Point& a,
                   const Point& b);
 
-/// The terrain that has a part in the box of `points` grown by `margin` [m] on every side. By looking at every segment.
-std::vector<const terrain::Segment*> terrain_near(const terrain::Terrain& terrain, const std::vector<Point>& points,
-                                                  double margin);
+/// The segments of a terrain in upright strips, so that a look at a place does not look at all of them.
+class Strips {
+ public:
+  explicit Strips(const terrain::Terrain& terrain);
+  /// The terrain that has a part in the box of `points` grown by `margin` [m] on every side, each segment once.
+  std::vector<const terrain::Segment*> near(const std::vector<Point>& points, double margin) const;
+
+ private:
+  std::size_t strip_of(double x) const;
+
+  std::vector<double> borders_;  ///< strip k lies between borders k - 1 and k [m]
+  std::vector<std::vector<const terrain::Segment*>> strips_;
+};
 
 }  // namespace surefoot::gaits::bare

@@ -1,5 +1,7 @@
 #include "planner/refine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -117,11 +119,11 @@ Factors factors_of(const Scene& scene, const Plan& plan) {
   return out;
 }
 
-enum class Swept { unchanged, changed, out_of_time };
+enum class Swept { unchanged, changed, out_of_work, out_of_time };
 
 /// One pass in windows over the COMs whose factors are below `limit`, the weakest first.
 Swept sweep(const Scene& scene, Plan& plan, const Timeline& timeline, const Factors& factors, double limit,
-           const RefineOptions& options) {
+            int& windows_left, const RefineOptions& options) {
   const int coms = static_cast<int>(plan.stances.size()), first_free = scene.start.com ? 1 : 0;
   const int half = std::max(options.window, 1) / 2;
   std::vector<int> order(coms - first_free);
@@ -132,6 +134,7 @@ Swept sweep(const Scene& scene, Plan& plan, const Timeline& timeline, const Fact
   for (const int centre : order) {
     if (done[centre] || factors.of_com[centre] > limit) continue;
     if (std::chrono::steady_clock::now() >= options.deadline) return Swept::out_of_time;
+    if (windows_left-- <= 0) return Swept::out_of_work;
     const int first = std::max(first_free, std::min(centre - half, coms - std::max(options.window, 1)));
     const int last = std::min(coms - 1, first + std::max(options.window, 1) - 1);
     changed = refine_window(scene, plan, timeline, first, last, factor_cap(factors.least), options) || changed;
@@ -159,9 +162,13 @@ Plan refine_unverified(const Scene& scene, const Plan& plan, const RefineOptions
     return out;
   }
   const Timeline timeline(out);
+  int windows_left = options.max_windows;
   for (int i = 0; i < options.sweeps; ++i) {
     const double limit = i == 0 ? std::numeric_limits<double>::infinity() : weak_place * factors.least;
-    const Swept swept = sweep(scene, out, timeline, factors, limit, options);
+    const Swept swept = sweep(scene, out, timeline, factors, limit, windows_left, options);
+    if (swept == Swept::out_of_work)
+      out.left_out.push_back({"refinement of the safer places", fmt::format("the plan is long: the {} weakest windows of it "
+                                                                            "had their turn", options.max_windows)});
     if (swept == Swept::out_of_time) out.left_out.push_back({"part of the refinement", "the time limit was reached"});
     if (swept != Swept::changed) break;
     factors = factors_of(scene, out);

@@ -1,7 +1,7 @@
 // Moves the COM waypoints, and footholds within their segments, of a plan to raise its least safety factor (then the
 // sum), with NLopt and the oracle's gradients. Guarantees: the result passes gaits::verify if the input does, its least
 // safety factor is not below the input's, steps and segments stay the same, the result is the same every time. Does not
-// guarantee a global optimum. The cost grows linearly with the number of steps.
+// guarantee a global optimum.
 //
 // Windows of a few neighbouring COMs are treated in turn, the weakest place first; each maximises the least factor it
 // touches, then their sum. A safety factor is a minimum of many smooth functions of which the oracle tells value and
@@ -21,6 +21,7 @@ struct RefineOptions {
   int max_evaluations = 40;  ///< evaluations per window of the plan
   int sweeps = 2;            ///< passes over the plan
   int window = 5;            ///< neighbouring COMs that move together, >= 1
+  int max_windows = 120;     ///< windows treated in all, the weakest first: bounds the work on long plans
   bool leave_out = true;     ///< skip windows that cannot gain (for tests of that rule)
   /// No window is begun later than this; what has been gained is kept. The result is the same every time only where
   /// this is not reached.

@@ -30,10 +30,10 @@ struct Turn {
 /// dropped soon and grown anew, longer each time.
 constexpr Turn auto_turns[] = {{"RRT", 0.7, 1000}, {"EST", 0.3, 2000}, {"RRT", 0.5, 4000}, {"KPIECE1", 0.3, 4000}};
 
-// Work of Layers, about a microsecond a unit.
+// Work of Layers, a third of a microsecond to one a unit.
 constexpr std::uint64_t stall_before_proof = 150'000;  ///< without progress: then it is time to ask whether there is a plan
 constexpr std::uint64_t greatest_stall = 1'500'000;
-constexpr std::uint64_t usual_improvement = 300'000;
+constexpr std::uint64_t usual_improvement = 1'500'000;
 
 std::vector<Turn> turns_of(const std::string& planner) {
   if (planner == "auto") return {std::begin(auto_turns), std::end(auto_turns)};
@@ -148,7 +148,9 @@ class Search {
   /// In slices, telling the best so far in between.
   void improve(AnytimeSearch& search) {
     constexpr double slices = 20;
-    const double work = std::min(options_.effort * static_cast<double>(usual_improvement), 1e18);
+    // A first plan that was dear (long terrain) has had its share of the work.
+    const std::uint64_t spent = std::min(2 * search.work(), usual_improvement);
+    const double work = std::min(options_.effort * static_cast<double>(usual_improvement - spent), 1e18);
     for (int i = 0; i < slices && !stopped(); ++i) {
       options_.progress(fmt::format("{} steps, looking for a better plan ...", search.path().size() - 1));
       if (!search.improve(static_cast<std::uint64_t>(work / slices))) return;

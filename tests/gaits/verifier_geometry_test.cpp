@@ -83,7 +83,7 @@ TEST_CASE("a sector is met iff one of many points of the bar lies in it", "[veri
 TEST_CASE("terrain near a box is all that reaches into it", "[verifier]") {
   const surefoot::terrain::Terrain terrain(
       {{{{0, 0}, {1, 0}, {2, 1}, {3, 1}}, {{0.5, true}, {0.5, true}, {0.5, true}}}});
-  CHECK(terrain_near(terrain, {{0.5, 0.5}}, 0.4).empty());
-  CHECK(terrain_near(terrain, {{0.5, 0.5}}, 0.5).size() == 2);
-  CHECK(terrain_near(terrain, {{-1, -1}, {4, 4}}, 0).size() == 3);
+  CHECK(Strips(terrain).near({{0.5, 0.5}}, 0.4).empty());
+  CHECK(Strips(terrain).near({{0.5, 0.5}}, 0.5).size() == 2);
+  CHECK(Strips(terrain).near({{-1, -1}, {4, 4}}, 0).size() == 3);
 }

@@ -47,7 +47,8 @@ gaits::Plan run(const gaits::Scene& scene, const std::string& planner = "auto", 
   options.planner = planner;
   options.seed = seed;
   options.objective = objective;
-  options.time_limit = 300;  // never the limit here: budgets are iterations
+  options.time_limit = 300;  // never the limit here: budgets are work
+  options.effort = 0.05;     // what is claimed holds for any
   return planner::search(scene, options);
 }
 

@@ -22,7 +22,7 @@ fresh=$(mktemp -d)
 trap 'rm -rf -- "$fresh"' EXIT
 mkdir -p "$golden"
 for name in "${names[@]}"; do
-  "$root/surefoot" plan "$root/maps/$name.yaml" --format json --no-refine --time-limit 300 >"$fresh/plan"
+  "$root/surefoot" plan "$root/maps/$name.yaml" --format json --no-refine --time-limit 300 --effort 0.2 >"$fresh/plan"
   sed -E 's/^( *"time_s": )[^,]*/\10.0/' "$fresh/plan" >"$fresh/$name.json"
   old=$golden/$name.json
   [[ -f $old ]] || old=/dev/null

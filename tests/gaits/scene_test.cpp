@@ -213,7 +213,7 @@ TEST_CASE("words that are not choices are refused, near ones suggested", "[scene
             "s.yaml:16:14: criterion: \"robst\" is not known; did you mean \"robust\"?"},
       Fault{"planner: EST", "planner: rrt", "s.yaml:23:45: planner: \"rrt\" is not known; did you mean \"RRT\"?"},
       Fault{"planner: EST", "planner: dijkstra",
-            "s.yaml:23:45: planner: \"dijkstra\" is not known; expected one of: auto, RRT, KPIECE1, EST, SST"},
+            "s.yaml:23:45: planner: \"dijkstra\" is not known; expected one of: auto, Layers, RRT, KPIECE1, EST, SST"},
       Fault{"objective: safety", "objective: step",
             "s.yaml:23:61: objective: \"step\" is not known; did you mean \"steps\"?"},
       Fault{"name: test", "name: [a]", "s.yaml:2:7: name: a list of 1 item is given"});

@@ -7,6 +7,7 @@
 #include "tests/support/agreement.hpp"
 #include "tests/support/direct_reference.hpp"
 #include "tests/support/exact_comparison.hpp"
+#include "tests/support/rounds.hpp"
 
 using namespace surefoot::testing;
 
@@ -29,7 +30,7 @@ ComparisonCounts compared(Kind kind, long cases) {
 
 TEST_CASE("Verdicts agree with exact arithmetic on random postures", "[exact]") {
   const ComparisonCounts counts = compared(PointKind::random, 6000);
-  CHECK(counts.robust > 600);
+  CHECK(counts.robust > surefoot::test::enough(600));
 }
 
 TEST_CASE("Verdicts agree with exact arithmetic on and beside every kind of boundary", "[exact]") {
@@ -94,9 +95,9 @@ TEST_CASE("Where a point of a line allows a mode, so does the exact decision on 
       }
     }
   }
-  CHECK(feasible > 100);
-  CHECK(infeasible > 100);
-  CHECK(confirmed > 100);
+  CHECK(feasible > surefoot::test::enough(100));
+  CHECK(infeasible > surefoot::test::enough(100));
+  CHECK(confirmed > surefoot::test::enough(100));
 }
 
 namespace {
@@ -154,7 +155,7 @@ TEST_CASE("Random quadratic rows: what dense sampling allows, the decision on an
   const std::array<Form, 4> corners{Form{-1, 1, -1}, Form{1, 1, -1}, Form{1, 1, 1}, Form{-1, 1, 1}};
   PieceSampler sampler;
   int inside = 0, hairs = 0, none = 0, by_roots = 0;
-  for (int round = 0; round < 6000; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(6000); ++round) {
     const ModePiece piece = sampler.piece(round);
     PieceDecision decision(corners);
     const auto found = decision.feasible(piece);
@@ -167,10 +168,10 @@ TEST_CASE("Random quadratic rows: what dense sampling allows, the decision on an
     none += !found;
     by_roots += decision.work().by_roots > 0;
   }
-  CHECK(inside > 200);
-  CHECK(hairs > 20);
-  CHECK(none > 1000);
-  CHECK(by_roots > 100);
+  CHECK(inside > surefoot::test::enough(200));
+  CHECK(hairs > surefoot::test::enough(20));
+  CHECK(none > surefoot::test::enough(1000));
+  CHECK(by_roots > surefoot::test::enough(100));
 }
 
 TEST_CASE("A line that passes the point of a wedge of unstable COMs, computed by hand", "[exact][reference]") {

@@ -5,6 +5,7 @@
 
 #include "tests/support/agreement.hpp"
 #include "tests/support/direct_reference.hpp"
+#include "tests/support/rounds.hpp"
 
 using namespace surefoot::testing;
 using surefoot::stability::LineSafetyFactor;
@@ -173,13 +174,13 @@ TEST_CASE("Verdict and least safety factor on a line agree with dense sampling",
   Sampler sampler(seed);
   Counts counts;
   INFO("seed " << seed);
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(30); ++round) {
     for (const Kind kind : all_kinds) {
       const SamplePosture sample = sampler.posture(kind);
       compare_line(sample, sampler.com_near(sample.contacts), 60, counts);
     }
   }
-  CHECK(counts.unstable > 200);
+  CHECK(counts.unstable > surefoot::test::enough(200));
 }
 
 TEST_CASE("Lines with stable ends agree with dense sampling", "[line]") {
@@ -197,7 +198,7 @@ TEST_CASE("Lines with stable ends agree with dense sampling", "[line]") {
     compare_line(sample, to, 80, counts);
     ++drawn;
   }
-  CHECK(counts.stable > 150);
+  CHECK(counts.stable > surefoot::test::enough(150));
   CHECK(counts.uncertain == 0);
 }
 
@@ -205,7 +206,7 @@ TEST_CASE("Equilibrium on a line follows from its ends, factor included", "[line
   const std::uint64_t seed = 55;
   Sampler sampler(seed);
   int finite = 0;
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(40); ++round) {
     for (const Kind kind : all_kinds) {
       const SamplePosture sample = sampler.posture(kind);
       const Eigen::Vector2d to = sampler.com_near(sample.contacts);
@@ -222,5 +223,5 @@ TEST_CASE("Equilibrium on a line follows from its ends, factor included", "[line
       finite += expected > 0 && expected < practically_infinite;
     }
   }
-  CHECK(finite > 80);
+  CHECK(finite > surefoot::test::enough(80));
 }

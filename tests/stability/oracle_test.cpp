@@ -5,6 +5,7 @@
 
 #include "tests/support/agreement.hpp"
 #include "tests/support/lp_reference.hpp"
+#include "tests/support/rounds.hpp"
 
 using namespace surefoot::testing;
 using surefoot::stability::Critical;
@@ -15,7 +16,7 @@ TEST_CASE("Equilibrium, every contact mode and the robust verdict equal those of
   const std::uint64_t seed = 20240;
   Sampler sampler(seed);
   int feasible = 0, robust = 0, undecided = 0;
-  for (int round = 0; round < 160; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(160); ++round) {
     for (const Kind kind : all_kinds) {
       const SamplePosture sample = sampler.posture(kind);
       INFO("seed " << seed << " round " << round << " kind " << name(kind) << "\n" << sample.json());
@@ -39,8 +40,8 @@ TEST_CASE("Equilibrium, every contact mode and the robust verdict equal those of
       robust += margin > 0 && expected.empty();
     }
   }
-  CHECK(feasible > 2000);
-  CHECK(robust > 200);
+  CHECK(feasible > surefoot::test::enough(2000));
+  CHECK(robust > surefoot::test::enough(200));
   CHECK(undecided < 20);
 }
 
@@ -72,7 +73,7 @@ TEST_CASE("Safety factor and equilibrium factor equal those of the LP to 1e-6", 
       }
     }
   }
-  CHECK(finite > 150);
+  CHECK(finite > surefoot::test::enough(150));
 }
 
 TEST_CASE("Verdicts equal those of exact rational brute force, also where rows vanish", "[exact]") {
@@ -95,7 +96,7 @@ TEST_CASE("The witness lies on the boundary of sigma W and the critical constrai
   const std::uint64_t seed = 5;
   Sampler sampler(seed);
   int equilibria = 0, modes = 0;
-  for (int round = 0; round < 150; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(150); ++round) {
     for (const Kind kind : all_kinds) {
       const SamplePosture sample = sampler.posture(kind);
       const SafetyFactor found = oracle_of(sample).safety_factor(sample.com);
@@ -123,15 +124,15 @@ TEST_CASE("The witness lies on the boundary of sigma W and the critical constrai
       }
     }
   }
-  CHECK(equilibria > 100);
-  CHECK(modes > 30);
+  CHECK(equilibria > surefoot::test::enough(100));
+  CHECK(modes > surefoot::test::enough(30));
 }
 
 TEST_CASE("The gradient equals central differences of the LP's safety factor", "[gradient]") {
   const std::uint64_t seed = 31;
   Sampler sampler(seed);
   int compared = 0, by_mode = 0;
-  for (int round = 0; round < 120; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(120); ++round) {
     for (const Kind kind : all_kinds) {
       const SamplePosture sample = sampler.posture(kind);
       const SafetyFactor found = oracle_of(sample).safety_factor(sample.com);
@@ -153,14 +154,14 @@ TEST_CASE("The gradient equals central differences of the LP's safety factor", "
       by_mode += found.critical.kind == Critical::Kind::mode;
     }
   }
-  CHECK(compared > 200);
-  CHECK(by_mode > 20);
+  CHECK(compared > surefoot::test::enough(200));
+  CHECK(by_mode > surefoot::test::enough(20));
 }
 
 TEST_CASE("A single contact is never robust and never an equilibrium", "[oracle]") {
   const std::uint64_t seed = 8;
   Sampler sampler(seed);
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(200); ++round) {
     SamplePosture sample = sampler.posture(all_kinds[round % all_kinds.size()], 1);
     if (round % 3 == 0) sample.com.x() = sample.contacts[0].position.x(), sample.box = {0, 0};
     INFO("seed " << seed << "\n" << sample.json());

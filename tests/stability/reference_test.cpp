@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/support/lp_reference.hpp"
+#include "tests/support/rounds.hpp"
 
 using namespace surefoot::testing;
 
@@ -124,7 +125,7 @@ TEST_CASE("LP, rational and double references agree on postures of every kind", 
   const std::uint64_t seed = 11;
   Sampler sampler(seed);
   int compared = 0, feasible = 0, finite = 0;
-  for (int round = 0; round < 25; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(25); ++round) {
     for (const Kind kind : all_kinds) {
       const SamplePosture sample = sampler.posture(kind);
       INFO("seed " << seed << " kind " << name(kind) << "\n" << sample.json());
@@ -150,7 +151,7 @@ TEST_CASE("LP, rational and double references agree on postures of every kind", 
       finite += factor.value > 0;
     }
   }
-  CHECK(compared > 3000);
-  CHECK(feasible > 300);
-  CHECK(finite > 50);
+  CHECK(compared > surefoot::test::enough(3000));
+  CHECK(feasible > surefoot::test::enough(300));
+  CHECK(finite > surefoot::test::enough(50));
 }

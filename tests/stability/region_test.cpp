@@ -12,6 +12,7 @@
 
 #include "stability/region_tolerance.hpp"
 #include "tests/support/region_reference.hpp"
+#include "tests/support/rounds.hpp"
 #include "tests/support/sample_posture.hpp"
 
 using namespace surefoot::stability;
@@ -184,7 +185,7 @@ TEST_CASE("Areas of random postures agree with grids of oracle calls", "[region]
   const std::uint64_t seed = 41;
   Sampler sampler(seed);
   int compared = 0;
-  for (int round = 0; round < 78; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(78); ++round) {
     const SamplePosture s = sampler.posture(all_kinds[static_cast<std::size_t>(round) % all_kinds.size()]);
     INFO("seed " << seed << " round " << round << "\n" << s.json());
     RegionOptions options;
@@ -196,7 +197,7 @@ TEST_CASE("Areas of random postures agree with grids of oracle calls", "[region]
     CHECK(std::abs(grid.robust - r.robust_area) <= grid.error + r.area_error);
     ++compared;
   }
-  CHECK(compared > 35);
+  CHECK(compared > surefoot::test::enough(35));
 }
 
 TEST_CASE("The stated error of an area holds against integrals of the oracle's verdicts", "[region]") {
@@ -219,7 +220,7 @@ TEST_CASE("The stated error of an area holds against integrals of the oracle's v
 TEST_CASE("Areas by subdivision and by sweep agree within the stated errors, on every kind of posture", "[region]") {
   Sampler sampler(45);
   int proved = 0, with_region = 0;
-  for (int round = 0; round < 39; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(39); ++round) {
     const SamplePosture s = sampler.posture(all_kinds[static_cast<std::size_t>(round) % all_kinds.size()]);
     INFO("round " << round << "\n" << s.json());
     RegionOptions options;
@@ -236,7 +237,7 @@ TEST_CASE("Areas by subdivision and by sweep agree within the stated errors, on 
     ++with_region;
     proved += areas.error <= 1.1e-6 * areas.equilibrium;
   }
-  CHECK(with_region > 20);
+  CHECK(with_region > surefoot::test::enough(20));
   CHECK(proved > 0.5 * with_region);
 }
 
@@ -352,7 +353,7 @@ TEST_CASE("Degenerate and extreme postures give a region or a statement", "[regi
 
 TEST_CASE("Half-planes of R_SS(W) are those of the oracle", "[region]") {
   Sampler sampler(43);
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(200); ++round) {
     const SamplePosture s = sampler.posture(all_kinds[static_cast<std::size_t>(round) % all_kinds.size()]);
     const auto ours = equilibrium_half_planes(Posture(s.contacts, s.rho), {{}, s.box.kappa, s.box.nu});
     const auto theirs = RobustOracle(s.contacts, s.rho, s.box).equilibrium_half_planes();
@@ -367,7 +368,7 @@ TEST_CASE("Half-planes of R_SS(W) are those of the oracle", "[region]") {
 TEST_CASE("The disc around a COM is robust all over, and is the largest where only tipping limits it", "[region][tolerance]") {
   Sampler sampler(44);
   int discs = 0, sharp = 0;
-  for (int round = 0; round < 400; ++round) {
+  for (int round = 0; round < surefoot::test::rounds(400); ++round) {
     const SamplePosture s = sampler.posture(all_kinds[static_cast<std::size_t>(round) % all_kinds.size()]);
     INFO("round " << round << "\n" << s.json());
     const RobustOracle oracle(s.contacts, s.rho, s.box);
@@ -387,7 +388,7 @@ TEST_CASE("The disc around a COM is robust all over, and is the largest where on
         CHECK(oracle.robust(s.com + part * radius * Vector2d(std::cos(angle), std::sin(angle))));
       }
   }
-  CHECK(discs > 40);
+  CHECK(discs > surefoot::test::enough(40));
   // Discs end where the oracle's verdict does, but for few.
   CHECK(sharp > 0.9 * discs);
   // Level ground, large rho: tipping over a foot, 0.2 - nu - kappa y away, across a side of slope 1 / kappa.

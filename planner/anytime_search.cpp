@@ -185,7 +185,8 @@ gaits::Resolution AnytimeSearch::resolution() const {
   const auto& scene = proposals_->scene();
   resolution.foothold_spacing = std::ldexp(lattice_.spacing * scene.robot.reach_max, -finest_);
   resolution.com_columns = lattice_.columns << finest_;
-  resolution.fewest_on_lattice = exhausted_level_ >= finest_;
+  resolution.fewest_on_lattice =
+      options_.objective == "steps" && exhausted_level_ >= finest_ && !layers_->swing_mattered();
   resolution.least_steps = least_steps(least_distance(scene), scene.robot.reach_max);
   return resolution;
 }

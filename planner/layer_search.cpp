@@ -64,7 +64,10 @@ bool LayerSearch::placement_is_legal(const SearchNode& node, std::int32_t landin
   ++checked_;
   const Vector2d& com = coms_.com(node.com).at;
   if (!scene_->terrain.leg_is_free(com, foot(landing))) return false;
-  return node.old_foot < 0 || gaits::swing_is_free(*scene_, com, foot(node.old_foot).position, foot(landing).position);
+  if (node.old_foot < 0) return true;
+  if (gaits::swing_is_free(*scene_, com, foot(node.old_foot).position, foot(landing).position)) return true;
+  swing_mattered_ = true;
+  return false;
 }
 
 /// Steps that land at one place, for COMs of one level.

@@ -55,6 +55,9 @@ class LayerSearch {
   /// Landings and steps checked, COMs asked about, eighths for steps noted and COMs passed over: about a microsecond each. The same on every machine.
   std::uint64_t work() const { return checked_ + coms_.asked() + (entries_ + scanned_) / 8; }
   std::size_t stances() const { return nodes_.size(); }
+  /// A swing was refused. Of stances that differ only in where the free leg was lifted from, the first is kept; where
+  /// no swing is refused, that makes no difference.
+  bool swing_mattered() const { return swing_mattered_; }
 
  private:
   struct SearchNode {
@@ -116,6 +119,7 @@ class LayerSearch {
   std::vector<Layer> layers_;
   std::vector<int> landings_;
   std::int32_t goal_ = -1;
+  bool swing_mattered_ = false;
   Front front_;
   mutable unsigned asked_to_stop_ = 0;
   std::uint64_t checked_ = 0, scanned_ = 0, entries_ = 0;

@@ -1,0 +1,183 @@
+// The planner Layers: its lattice, its bounds, its plans against exhaustive search, and its place among OMPL's planners.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "gaits/rules.hpp"
+#include "gaits/verifier.hpp"
+#include "planner/anytime_search.hpp"
+#include "planner/foothold_lattice.hpp"
+#include "planner/layer_search.hpp"
+#include "planner/ompl_search.hpp"
+#include "planner/problem.hpp"
+#include "planner/search.hpp"
+
+using namespace surefoot;
+using namespace surefoot::planner;
+
+namespace {
+
+std::string scene_text(const std::string& vertices, double goal, const std::string& stability = "") {
+  return "surefoot: 1\nterrain:\n  friction: 0.6\n  chains:\n    - vertices: " + vertices +
+         "\nrobot: {radius_of_gyration: 0.2, reach: [0.2, 0.9], clearance: 0.1}\n"
+         "disturbance: {kappa: 0.08, nu: 0.02}\nstart: {feet: [{x: -0.4}, {x: 0.15}, {x: -0.1}], support: [1, 2]}\n"
+         "goal: {com_x: [" + std::to_string(goal) + ", " + std::to_string(goal + 0.4) + "]}\n" + stability;
+}
+
+const std::string level = "[[-1, 0], [5, 0]]";
+const std::string steps = "[[-1, 0], [0.5, 0], [0.5, 0.15], [0.9, 0.15], [0.9, 0.3], [4, 0.3]]";
+const std::string dip = "[[-1, 0], [0.6, 0], [1, -0.3], [1.5, -0.3], [1.9, 0.05], [4, 0.05]]";
+
+gaits::Plan plan_of(const gaits::Scene& scene, const std::vector<Node>& path) {
+  gaits::Plan plan;
+  plan.status = gaits::Status::solved;
+  write_path(path, plan);
+  gaits::rate(scene, plan);
+  return plan;
+}
+
+void require_holds(const gaits::Scene& scene, const gaits::Plan& plan) {
+  const auto verification = gaits::verify(scene, plan);
+  for (const auto& fault : verification.faults) UNSCOPED_INFO(fault.place << ": " << fault.message);
+  REQUIRE(verification.holds());
+}
+
+}  // namespace
+
+TEST_CASE("the levels of a lattice hold each place once, the first within the spacing, each half of the one before",
+          "[layers]") {
+  const terrain::Terrain terrain({{{{0, 0}, {1, 0}, {1.4, 0.3}}, {{0.5, true}, {0.5, true}}}});
+  FootholdLattice lattice(terrain, 0.3, 0.02);
+  std::set<double> places;
+  double spacing = 0.3;
+  for (int level_number = 0; level_number < FootholdLattice::levels; ++level_number, spacing /= 2) {
+    std::vector<int> numbers;
+    lattice.look_from({0.7, 0.5}, 0, 2);
+    lattice.list(level_number, numbers);
+    REQUIRE(!numbers.empty());
+    for (const int number : numbers) CHECK(places.insert(lattice[number].s).second);
+    // With the ends of the segments, at arc lengths 0, 1 and 1.5, no gap is wider than the spacing.
+    double last = 0;
+    for (const double s : places) {
+      CHECK(s - last <= spacing + 1e-12);
+      last = s;
+    }
+    CHECK(1.5 - last <= spacing + 1e-12);
+  }
+}
+
+TEST_CASE("footholds are numbered by the order of the questions, but the places are the same", "[layers]") {
+  const terrain::Terrain terrain({{{{0, 0}, {1, 0}, {2, 0.3}, {3, 0}}, {{0.5, true}, {0.5, true}, {0.5, true}}}});
+  const auto places = [&](const std::vector<Eigen::Vector2d>& coms) {
+    FootholdLattice lattice(terrain, 0.1, 0.02);
+    std::set<double> found;
+    for (const auto& com : coms)
+      for (int level_number : {1, 0}) {
+        std::vector<int> numbers;
+        lattice.look_from(com, 0.1, 0.9);
+        lattice.list(level_number, numbers);
+        for (const int number : numbers) {
+          CHECK((lattice[number].position - com).norm() <= 0.9);
+          CHECK((lattice[number].position - com).norm() >= 0.1);
+          found.insert(lattice[number].s);
+        }
+      }
+    return found;
+  };
+  CHECK(places({{0.5, 0.4}, {1.5, 0.5}, {2.5, 0.5}}) == places({{2.5, 0.5}, {0.5, 0.4}, {1.5, 0.5}, {0.5, 0.4}}));
+}
+
+TEST_CASE("least_steps: three steps gain two reaches and no more", "[layers]") {
+  CHECK(least_steps(0, 1) == 0);
+  CHECK(least_steps(1e-6, 1) == 1);
+  CHECK(least_steps(2, 1) == 1);
+  CHECK(least_steps(2.001, 1) == 4);
+  CHECK(least_steps(4, 1) == 4);
+  CHECK(least_steps(4.001, 1) == 7);
+  CHECK(least_steps(8, 2) == least_steps(4, 1));
+}
+
+TEST_CASE("no plan of any planner gains more than least_steps allows, over every part of it", "[layers]") {
+  const gaits::Scene scene = gaits::parse_scene(scene_text(level, 3.2), "level");
+  const std::string name = GENERATE("Layers", "RRT", "EST");
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    SearchOptions options;
+    options.planner = name;
+    options.seed = seed;
+    options.effort = 0.05;
+    const gaits::Plan plan = search(scene, options);
+    REQUIRE(plan.status == gaits::Status::solved);
+    for (std::size_t i = 0; i < plan.stances.size(); ++i)
+      for (std::size_t k = i + 1; k < plan.stances.size(); ++k)
+        CHECK(least_steps((plan.stances[k].com - plan.stances[i].com).norm(), scene.robot.reach_max) <=
+              static_cast<int>(k - i));
+    if (plan.resolution) CHECK(plan.resolution->least_steps <= plan.steps());
+  }
+}
+
+TEST_CASE("improving keeps a plan that holds and never makes it longer", "[layers]") {
+  const std::string vertices = GENERATE(level, steps, dip);
+  const gaits::Scene scene = gaits::parse_scene(scene_text(vertices, 2.6), "scene");
+  StepProposals proposals(scene);
+  AnytimeSearch search(proposals, choose_start(proposals).nodes, {});
+  REQUIRE(search.find(1'000'000));
+  std::size_t length = search.path().size();
+  for (int i = 0; i < 8; ++i) {
+    require_holds(scene, plan_of(scene, search.path()));
+    CHECK(search.path().size() <= length);
+    length = search.path().size();
+    search.improve(20'000);
+  }
+  // 2.6 m less the COM's start at -0.1 or so: two reaches every three steps.
+  CHECK(search.path().size() - 1 >= 4);
+  CHECK(search.path().size() - 1 <= 7);
+}
+
+TEST_CASE("the safest plan is at least as safe as the shortest, and no safer than its first stance can be", "[layers]") {
+  const gaits::Scene scene = gaits::parse_scene(scene_text(steps, 2.2), "steps");
+  SearchOptions options;
+  options.effort = 0.2;
+  const gaits::Plan shortest = search(scene, options);
+  options.objective = "safety";
+  const gaits::Plan safest = search(scene, options);
+  require_holds(scene, safest);
+  CHECK(safest.safety_factor > 1.5 * shortest.safety_factor);
+  CHECK(safest.steps() >= shortest.steps());
+}
+
+TEST_CASE("as an OMPL planner it solves, and its solution is a path of legal steps", "[layers]") {
+  const gaits::Scene scene = gaits::parse_scene(scene_text(dip, 2.6), "dip");
+  StepProposals proposals(scene);
+  OmplRun run;
+  run.planner = "Layers";
+  std::uint64_t iterations = 0;
+  const auto path = run_ompl(proposals, choose_start(proposals).nodes, run, iterations);
+  REQUIRE(path.size() > 1);
+  require_holds(scene, plan_of(scene, path));
+  for (std::size_t i = 1; i < path.size(); ++i) CHECK(proposals.is_legal(path[i - 1], path[i]));
+}
+
+TEST_CASE("an interrupted search ends with the best plan so far", "[layers]") {
+  const gaits::Scene scene = gaits::parse_scene(scene_text(level, 3.2), "level");
+  int asked = 0;
+  SearchOptions options;
+  options.effort = 1e9;  // would go on for hours
+  options.interrupted = [&asked] { return ++asked > 2000; };
+  const gaits::Plan plan = search(scene, options);
+  require_holds(scene, plan);
+}
+
+TEST_CASE("a plan is found where the swing of a leg depends on where it was lifted", "[layers]") {
+  // A low ceiling over a floor: near both the leg cannot turn freely.
+  const std::string text =
+      "surefoot: 1\nterrain:\n  friction: 0.6\n  chains:\n    - vertices: [[-1, 0], [4, 0]]\n"
+      "    - vertices: [[2.2, 0.62], [0.9, 0.62]]\n      segments: {0: {foothold: false}}\n"
+      "robot: {radius_of_gyration: 0.2, reach: [0.3, 0.9], clearance: 0.1}\n"
+      "disturbance: {kappa: 0.05, nu: 0.02}\nstart: {feet: [{x: -0.4}, {x: 0.15}, {x: -0.1}], support: [1, 2]}\n"
+      "goal: {com_x: [2.8, 3.2]}\n";
+  const gaits::Scene scene = gaits::parse_scene(text, "tunnel");
+  SearchOptions options;
+  options.planner = "Layers";
+  options.effort = 0;
+  require_holds(scene, search(scene, options));
+}

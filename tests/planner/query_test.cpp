@@ -92,6 +92,36 @@ TEST_CASE("Without disturbances a stable posture is safe without limit, written 
   CHECK(json::parse(answer(line))["safety_factor"] == "inf");
 }
 
+TEST_CASE("With restitution frictional stability and its margins are told, without it nothing of it", "[query]") {
+  // Feet at distance b = 0.5, height h, rho = 0.2: psi = (b^2 - rho^2) / (b^2 + rho^2) = 21 / 29; kinematic-strong for
+  // b h / (rho^2 + h^2) < mu = 0.5 < b / h, no h between 0 and 1 but below 0.0432: h = 0.04 gives 0.481.
+  CHECK_FALSE(json::parse(answer(flat)).contains("frictional"));
+  const std::string low = with("[0.5,0.4]", "[0.5,0.04]");
+  CHECK_FALSE(json::parse(answer(low)).contains("psi"));
+  const auto at = [](std::string line, const std::string& e) {
+    return json::parse(answer(line.replace(line.find("\"rho\""), 5, "\"restitution\": " + e + ", \"rho\"")));
+  };
+  const json stable = at(low, "0.125"), high = at(flat, "0.125"), bouncy = at(low, "0.4");
+  CHECK(stable["kinematic_strong"] == true);
+  CHECK(stable["clattering"] == true);
+  CHECK(stable["frictional"] == true);
+  for (int i : {0, 1}) CHECK(stable["psi"][i].get<double>() == Approx(21.0 / 29).epsilon(1e-14));
+  CHECK(stable["psi_margin"].get<double>() == Approx(21.0 / 29 - 2.0 / 3).epsilon(1e-12));  // threshold of 1/8: 2/3
+  CHECK(stable["greatest_restitution"].get<double>() > 0.125);
+  CHECK(stable["frictional_radius"].get<double>() > 0);
+  CHECK(stable["frictional_radius"].get<double>() < 0.0032);  // the height limit
+  CHECK_FALSE(stable.contains("failed_mode"));
+  CHECK(high["kinematic_strong"] == false);
+  CHECK(high["clattering"] == true);
+  CHECK(high["frictional"] == false);
+  CHECK(high["frictional_radius"] == 0.0);
+  const std::string mode = high["failed_mode"];
+  CHECK((mode == "RF" || mode == "FR"));
+  CHECK(bouncy["kinematic_strong"] == true);
+  CHECK(bouncy["clattering"] == false);
+  CHECK(bouncy["psi_margin"].get<double>() < 0);
+}
+
 TEST_CASE("Answers begin with the promised keys in the promised order", "[query]") {
   const std::string text = answer(flat);
   std::size_t last = 0;

@@ -2,7 +2,6 @@
 // formulas as printed in [OR-H], and closed forms of level ground.
 #include "stability/frictional.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -10,111 +9,18 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/support/mode_brute_force.hpp"
 #include "tests/support/rounds.hpp"
 #include "tests/support/sample_posture.hpp"
 
 using namespace surefoot::stability;
 using surefoot::test::enough;
 using surefoot::test::rounds;
-using surefoot::testing::Kind;
 using surefoot::testing::Sampler;
 using surefoot::testing::SamplePosture;
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 namespace {
-
-/// What brute force says; `near` where a sign is too small to be believed.
-class BruteForce {
- public:
-  BruteForce(const std::vector<Contact>& contacts, const Vector2d& com, double rho) : rho_(rho) {
-    for (int i : {0, 1}) {
-      n_[i] = contacts[i].normal.normalized();
-      t_[i] = {n_[i].y(), -n_[i].x()};
-      r_[i] = contacts[i].position - com;
-      mu_[i] = contacts[i].friction;
-      N_[i] << n_[i], cross(r_[i], n_[i]);
-      T_[i] << t_[i], cross(r_[i], t_[i]);
-    }
-  }
-
-  bool near() const { return near_; }
-  /// Gravity is balanced by three of the four edges of the cones.
-  bool equilibrium() {
-    bool balanced = false;
-    for (int left_out = 0; left_out < 4; ++left_out) {
-      Eigen::Matrix3d edges;
-      for (int ray = 0, column = 0; ray < 4; ++ray) {
-        const int i = ray / 2;
-        if (ray != left_out) edges.col(column++) = N_[i] + (ray % 2 ? -mu_[i] : mu_[i]) * T_[i];
-      }
-      const Vector3d force = edges.fullPivLu().solve(Vector3d(0, 1, 0));
-      for (int k = 0; k < 3; ++k) positive(force[k]);
-      balanced |= force.minCoeff() > 0;
-    }
-    return balanced;
-  }
-  bool every_mode_leads_back() {
-    const Vector3d turn = N_[0].cross(N_[1]);
-    for (const char a : {'F', 'R', 'U', 'W'}) {
-      for (const char b : {'F', 'R', 'U', 'W'}) {
-        if (a == 'R' && b != 'F') continue;  // both fixed is static, a roll and a slide takes parallel normals
-        if (b == 'R' && a != 'F') continue;
-        // Both slide only along the one direction that keeps both contacts: +- turn.
-        if (a != 'F' && b != 'F' && a != 'R' && b != 'R' &&
-            !positive(sense(a) * T_[0].dot(turn) * sense(b) * T_[1].dot(turn)))
-          continue;
-        if (!leads_back({a, b})) return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  static double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-  static double sense(char state) { return state == 'U' ? 1 : -1; }
-  bool positive(double value) {
-    near_ |= !(std::abs(value) > 1e-9);
-    return value > 0;
-  }
-  /// Unknowns: the acceleration (a_x, a_y, alpha) and the two contact forces, g = m = 1.
-  bool leads_back(std::array<char, 2> mode) {
-    Eigen::Matrix<double, 7, 7> m = Eigen::Matrix<double, 7, 7>::Zero();
-    Eigen::Matrix<double, 7, 1> rhs = Eigen::Matrix<double, 7, 1>::Zero();
-    m(0, 0) = m(1, 1) = 1, m(2, 2) = rho_ * rho_, rhs(1) = -1;
-    for (int i : {0, 1}) {
-      const int at = 3 + 2 * i;
-      m(0, at) = m(1, at + 1) = -1, m(2, at) = r_[i].y(), m(2, at + 1) = -r_[i].x();
-      if (mode[i] == 'F') {
-        m(at, at) = m(at + 1, at + 1) = 1;
-        continue;
-      }
-      m.row(at).head<3>() = N_[i].transpose();
-      if (mode[i] == 'R')
-        m.row(at + 1).head<3>() = T_[i].transpose();
-      else
-        m.row(at + 1).segment<2>(at) = (t_[i] + sense(mode[i]) * mu_[i] * n_[i]).transpose();
-    }
-    const Eigen::Matrix<double, 7, 1> x = m.fullPivLu().solve(rhs);
-    bool possible = true, back = false;
-    for (int i : {0, 1}) {
-      const Vector2d force = x.segment<2>(3 + 2 * i);
-      const double pressure = force.dot(n_[i]), drag = force.dot(t_[i]);
-      if (mode[i] == 'F') back |= !positive(N_[i].dot(x.head<3>()));
-      if (mode[i] == 'R') possible &= positive(mu_[i] * pressure - std::abs(drag));
-      if (mode[i] != 'U' && mode[i] != 'W') continue;
-      possible &= positive(pressure);
-      back |= !positive(sense(mode[i]) * T_[i].dot(x.head<3>()));
-    }
-    return possible && back;
-  }
-
-  double rho_;
-  std::array<Vector2d, 2> n_, t_, r_;
-  std::array<double, 2> mu_;
-  std::array<Vector3d, 2> N_, T_;
-  bool near_ = false;
-};
 
 /// (10) as printed, for psi as printed.
 double printed_threshold(double e) { return (std::cbrt(e) + std::cbrt(e * e)) / (1 + e); }
@@ -175,7 +81,7 @@ TEST_CASE("kinematic-strong is what solving every mode for all its unknowns says
   const int all = rounds(120000);
   for (int k = 0; k < all; ++k) {
     const SamplePosture sample = random_posture(sampler, k % 2 ? gentle : steep);
-    BruteForce brute(sample.contacts, sample.com, sample.rho);
+    surefoot::testing::ModeBruteForce brute(sample.contacts, sample.com, sample.rho);
     const bool equilibrium = brute.equilibrium(), expected = equilibrium && brute.every_mode_leads_back();
     if (brute.near()) {
       ++unclear;

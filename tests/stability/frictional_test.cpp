@@ -237,7 +237,7 @@ TEST_CASE("every COM within the frictional radius is stable, and the radius is n
   for (int k = 0; k < rounds(30000); ++k) {
     const SamplePosture sample = random_stance(sampler);
     const Posture posture(sample.contacts, sample.rho);
-    const double e = sampler.uniform(0.001, 0.5);
+    const double e = std::exp(sampler.uniform(-9, -0.7));
     if (!frictionally_stable(posture, sample.com, e)) {
       if (k % 20 == 0) REQUIRE(frictional_margins(posture, sample.com, e).com == 0);
       continue;

@@ -63,8 +63,10 @@ void Checks::compare_with_stated(const std::string& place, int leg, const terrai
     note(Rule::foothold, place, "foot {} is said to stand on segment {}, but s = {} is on segment {}", leg + 1,
          stated.segment, stated.s, foot.segment->index);
   }
-  // A position is rounded to a double: allow that besides the slack.
-  const double rounding = 8 * std::numeric_limits<double>::epsilon() * foot.position.cwiseAbs().maxCoeff();
+  // A position and an arc length are rounded to doubles: allow that besides the slack.
+  const double along = foot.segment->s_begin + foot.segment->length;
+  const double rounding =
+      8 * std::numeric_limits<double>::epsilon() * std::max(foot.position.cwiseAbs().maxCoeff(), along);
   if (!((stated.position - foot.position).cwiseAbs().maxCoeff() <= slack_ + rounding)) {
     note(Rule::foothold, place, "foot {} is said to stand at {}, but s = {} of chain {} is at {}", leg + 1,
          show(stated.position), stated.s, stated.chain, show(foot.position));

@@ -52,6 +52,7 @@ double way_of_com(const std::vector<Node>& path) {
 AnytimeSearch::AnytimeSearch(StepProposals& proposals, std::vector<Node> starts, AnytimeOptions options)
     : proposals_(&proposals), starts_(std::move(starts)), options_(std::move(options)) {
   lattice_ = {0.15 * spacing_factor(options_.seed), 0.02, 5};
+  for (Node& start : starts_) start.id = proposals_->next_id();
   if (options_.objective == "safety") {
     const gaits::Scene& scene = proposals_->scene();
     for (const Node& start : starts_) {
@@ -122,6 +123,12 @@ bool AnytimeSearch::take(std::vector<Node> path) {
   return better;
 }
 
+void AnytimeSearch::offer(std::vector<Node> path) {
+  if (path.empty()) return;
+  for (Node& node : path) node.id = proposals_->next_id();
+  take(std::move(path));
+}
+
 bool AnytimeSearch::improve(std::uint64_t work_more) {
   const std::uint64_t until = work() + work_more;
   if (path_.empty()) return false;
@@ -149,7 +156,7 @@ bool AnytimeSearch::improve_steps(std::uint64_t until) {
         ++stage_;
         break;
       case LayerSearch::End::limit:
-        return true;
+        return !layers_->is_full();
     }
   }
   return true;

@@ -5,8 +5,8 @@
 //   safety    stable under disturbances larger than the scene's, by a factor that is raised and halved towards the
 //             largest that a plan is found for; then fewer steps at that factor;
 //   distance  as for steps, the COM's path then drawn tight, and the shortest kept.
-// With unlimited work the lattice becomes as fine as doubles: in the limit no plan is missed whose steps stay legal when
-// feet and COMs move a little. Deterministic for a seed: limits are counted in work, not in time.
+// The lattice ends at a sixteenth of its first spacing, and the search where its memory is full: what is finer is missed.
+// Deterministic for a seed: limits are counted in work, not in time.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +40,9 @@ class AnytimeSearch {
   bool find(std::uint64_t stall);
   /// Betters the plan by about `work` units of work. True as long as more work might better it.
   bool improve(std::uint64_t work);
+
+  /// A plan of another search: kept if it is better.
+  void offer(std::vector<Node> path);
 
   const std::vector<Node>& path() const { return path_; }
   int improvements() const { return improvements_; }  ///< how many plans were better than all before

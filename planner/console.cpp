@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <atomic>
 #include <csignal>
+#include <ctime>
 #include <cstdlib>
 #include <cstring>
 
@@ -36,18 +38,30 @@ void guard_standard_streams() {
 
 namespace {
 
-volatile std::sig_atomic_t interruption_asked = 0;
+std::atomic<bool> interruption_asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may write it
 
+/// The second of two signals ends the program, unless they come together: a terminal's or a supervisor's one request may
+/// arrive twice.
 extern "C" void ask_interruption(int signal) {
-  interruption_asked = 1;
+  constexpr long together = 200'000'000;  // [ns]
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  static timespec first;
+  if (!interruption_asked.exchange(true)) {
+    first = now;
+    return;
+  }
+  if ((now.tv_sec - first.tv_sec) * 1'000'000'000L + now.tv_nsec - first.tv_nsec < together) return;
   std::signal(signal, SIG_DFL);
+  std::raise(signal);
 }
 
 }  // namespace
 
 // Where SIGINT is ignored (a job in the background of a script), it stays ignored.
 Interruption::Interruption() {
-  interruption_asked = 0;
+  interruption_asked = false;
   if (std::signal(SIGINT, SIG_IGN) != SIG_IGN) std::signal(SIGINT, ask_interruption);
 }
 
@@ -55,7 +69,7 @@ Interruption::~Interruption() {
   if (std::signal(SIGINT, SIG_IGN) != SIG_IGN) std::signal(SIGINT, SIG_DFL);
 }
 
-bool Interruption::asked() const { return interruption_asked != 0; }
+bool Interruption::asked() const { return interruption_asked; }
 
 void write_stdout(std::string_view text) {
   const int fault = write_all(STDOUT_FILENO, text);

@@ -18,6 +18,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,6 +37,7 @@ struct ProofLimits {
   std::uint64_t work = 600000;
   double finest = 1.0 / 512;    ///< least length of a piece, relative to reach_max
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  std::function<bool()> stop = [] { return false; };  ///< asked now and then; true gives up
   /// Long terrain: look no further than this. What is proven is that the window cannot be crossed; its work does not
   /// depend on what lies outside. Nothing is proven where start or goal do not lie on either side of it.
   std::optional<ProofWindow> window;
@@ -57,7 +59,7 @@ struct Impossibility {
 };
 
 /// Why no plan exists, if that can be proven within the limits; nothing otherwise. Const and re-entrant.
-/// Without a deadline the answer depends on the scene and the limits alone.
+/// Without deadline and stop the answer depends on the scene and the limits alone.
 std::optional<Impossibility> prove_infeasible(const gaits::Scene& scene, const ProofLimits& limits = {});
 
 }  // namespace surefoot::planner

@@ -33,7 +33,8 @@ bool Graph::spend() {
   constexpr int look_at_clock = 64;
   ++work_;
   if (work_ >= limits_.work || pieces_.size() >= most_pieces) exhausted_ = true;
-  if (++since_clock_ % look_at_clock == 0 && std::chrono::steady_clock::now() >= limits_.deadline) exhausted_ = true;
+  if (++since_clock_ % look_at_clock == 0 && (std::chrono::steady_clock::now() >= limits_.deadline || limits_.stop()))
+    exhausted_ = true;
   return !exhausted_;
 }
 

@@ -48,14 +48,15 @@ LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& star
   }
 }
 
-float LayerSearch::key(const Vector2d& com, std::int32_t pair) const {
+double LayerSearch::key(const Vector2d& com, std::int32_t pair) const {
   const auto& feet = coms_[pair];
   const Vector2d middle = 0.5 * (foot(feet.first_foot).position + foot(feet.second_foot).position);
-  return static_cast<float>(scene_->goal.distance((1 - feet_share) * com + feet_share * middle));
+  return scene_->goal.distance((1 - feet_share) * com + feet_share * middle);
 }
 
 void LayerSearch::put_back(std::size_t k, const Entry& entry) {
   auto& heap = layers_[k].heap;
+  ++waiting_;
   heap.push_back(entry);
   std::push_heap(heap.begin(), heap.end());
 }
@@ -77,20 +78,21 @@ void LayerSearch::push_steps(std::int32_t number, std::int32_t landing, int leve
   for (const int k : {0, 1}) {
     // Until the pair is looked at, its COM may be anywhere within reach: say in the middle of its feet.
     const Vector2d middle = 0.5 * (foot(landing).position + foot(feet[1 - k]).position);
-    Entry entry{static_cast<float>(scene_->goal.distance(middle)), number, landing, feet[k], -1, level, 0, entries_++};
+    Entry entry{scene_->goal.distance(middle), number, landing, feet[k], -1, level, 0, entries_++};
     put_back(static_cast<std::size_t>(node.layer) + 1, entry);
   }
-  if (level == 0) return;
+  if (node.level == 0) return;
   // The leg just placed is lifted again: the COM moves, the support stays. Seldom of use.
   const Vector2d middle = 0.5 * (foot(feet[0]).position + foot(feet[1]).position);
-  Entry entry{static_cast<float>(scene_->goal.distance(middle)), number, landing, landing, -1, level, 0, entries_++};
+  Entry entry{scene_->goal.distance(middle), number, landing, landing, -1, level, 0, entries_++};
   put_back(static_cast<std::size_t>(node.layer) + 1, entry);
 }
 
 /// Pushes what levels up to this one add to what has been pushed before.
-void LayerSearch::expand(std::int32_t number, int level) {
+void LayerSearch::expand(std::int32_t number, int level, int below) {
   const SearchNode node = nodes_[number];
   if (node.level >= level) return;
+  if (node.layer + least_steps(coms_.com(node.com).to_goal, robot_.reach_max) >= below) return;
   nodes_[number].level = level;
   if (layers_.size() < static_cast<std::size_t>(node.layer) + 2) layers_.resize(static_cast<std::size_t>(node.layer) + 2);
   const auto& pair = coms_[node.pair];
@@ -129,6 +131,7 @@ void LayerSearch::pop(std::size_t k, const Limits& limits) {
   std::pop_heap(heap.begin(), heap.end());
   Entry entry = heap.back();
   heap.pop_back();
+  --waiting_;
   const int layer = static_cast<int>(k);
   if (nodes_[entry.node].layer + 1 != layer) return;  // since then it was reached sooner: its steps are there
   if (entry.pair < 0) {
@@ -147,7 +150,7 @@ void LayerSearch::pop(std::size_t k, const Limits& limits) {
     if (com.node >= 0 && nodes_[com.node].layer <= layer) continue;
     if (layer + least_steps(com.to_goal, robot_.reach_max) >= limits.below) return;  // so are those behind it
     if (!gaits::within_reach(robot_, lifted, from, com.at)) continue;
-    if (const float true_key = key(com.at, entry.pair); true_key > entry.key) {
+    if (const double true_key = key(com.at, entry.pair); true_key > entry.key) {
       entry.key = true_key;
       return put_back(k, entry);
     }
@@ -166,7 +169,7 @@ void LayerSearch::reach(std::size_t k, const Entry& entry, std::int32_t number) 
   }
   nodes_[com.node] = {entry.pair, number, entry.node, static_cast<std::int32_t>(k), entry.lifted, -1};
   layers_[k].nodes.push_back(com.node);
-  if (const float at = key(com.at, entry.pair); at < front_.key) front_ = {at, k, work()};
+  if (const double at = key(com.at, entry.pair); at < front_.key) front_ = {at, k, work()};
   if (scene_->goal.contains(com.at)) goal_ = com.node;
 }
 
@@ -176,7 +179,7 @@ bool LayerSearch::run_layer(std::size_t k, const Limits& limits) {
       if (is_out(limits)) return;
       if (layer->raised >= static_cast<std::size_t>(layer->width)) return;
       const std::int32_t node = layer->nodes[layer->raised++];
-      if (nodes_[node].layer == static_cast<std::int32_t>(k)) expand(node, layer->level);
+      if (nodes_[node].layer == static_cast<std::int32_t>(k)) expand(node, layer->level, limits.below);
     }
   };
   expand_waiting();
@@ -196,6 +199,7 @@ bool LayerSearch::any_open(std::size_t end) const {
 }
 
 /// A dead end is met where no step is left, or where layer after layer comes no nearer to the goal. Then the layers
+/// before the most advanced stance get wider and finer, reaching farther back each time.
 class LayerSearch::DeadEnd {
  public:
   bool is_met(std::size_t k, const Front& front) const { return k > front.layer + patience * reach(front); }
@@ -209,18 +213,20 @@ class LayerSearch::DeadEnd {
  private:
   static constexpr std::size_t patience = 8;
   std::size_t reach(const Front& front) const { return front.key < key_ ? 1 : std::size_t{1} << std::min(times_, 40); }
-  float key_ = std::numeric_limits<float>::infinity();
+  double key_ = std::numeric_limits<double>::infinity();
   int times_ = 0;
 };
 
-bool LayerSearch::is_out(const Limits& limits) const {
+bool LayerSearch::is_out(const Limits& limits) {
   const std::uint64_t done = work();
-  return done >= limits.work || (done - front_.work >= limits.stall && limits.below == no_bound) ||
-         (++asked_to_stop_ % stop_interval == 0 && limits.stop());
+  if (++asked_to_stop_ % stop_interval == 0 && limits.stop()) stopped_ = true;
+  return stopped_ || is_full() || done >= limits.work ||
+         (done - front_.work >= limits.stall && limits.below == no_bound);
 }
 
 LayerSearch::End LayerSearch::run(const Limits& limits) {
   goal_ = -1;
+  stopped_ = limits.stop();
   const auto prepare = [&limits](Layer& layer) {
     if (layer.level < limits.level) layer.level = limits.level, layer.raised = 0;
     layer.width = std::max(layer.width, limits.width);

@@ -46,7 +46,7 @@ class LayerSearch {
   };
   enum class End { found, exhausted, width, limit };
   /// Goes on from where it was left. `found`: path() is shorter than `below`. `exhausted`: the lattice has no such
-  /// plan. `width`: all layers are as wide as allowed. `limit`: work, stall or stop.
+  /// plan. `width`: all layers are as wide as allowed. `limit`: work, stall, stop or memory.
   End run(const Limits& limits);
   std::vector<Node> path() const;
 
@@ -55,11 +55,15 @@ class LayerSearch {
   /// Landings and steps checked, COMs asked about, eighths for steps noted and COMs passed over: about a microsecond each. The same on every machine.
   std::uint64_t work() const { return checked_ + coms_.asked() + (entries_ + scanned_) / 8; }
   std::size_t stances() const { return nodes_.size(); }
+  /// As many steps wait as memory allows: the search goes on no more.
+  bool is_full() const { return waiting_ >= most_waiting; }
   /// A swing was refused. Of stances that differ only in where the free leg was lifted from, the first is kept; where
   /// no swing is refused, that makes no difference.
   bool swing_mattered() const { return swing_mattered_; }
 
  private:
+  static constexpr std::uint64_t most_waiting = 8'000'000;  ///< half a gigabyte
+
   struct SearchNode {
     std::int32_t pair, com, parent;
     std::int32_t layer;
@@ -69,7 +73,7 @@ class LayerSearch {
   };
   /// Steps from a stance that land at one place and lift one leg: all COMs of the pair that is left.
   struct Entry {
-    float key;                   ///< [m], smaller first
+    double key;                  ///< [m], smaller first
     std::int32_t node;
     std::int32_t landing, lifted;
     std::int32_t pair = -1;      ///< not yet asked for
@@ -89,7 +93,7 @@ class LayerSearch {
 
   /// The stance with the smallest key so far.
   struct Front {
-    float key = std::numeric_limits<float>::infinity();
+    double key = std::numeric_limits<double>::infinity();
     std::size_t layer = 0;
     std::uint64_t work = 0;
   };
@@ -99,14 +103,14 @@ class LayerSearch {
   void pop(std::size_t k, const Limits& limits);
   void reach(std::size_t k, const Entry& entry, std::int32_t com);
   void put_back(std::size_t k, const Entry& entry);
-  void expand(std::int32_t node, int level);
+  void expand(std::int32_t node, int level, int below);
   void push_steps(std::int32_t node, std::int32_t landing, int level);
   bool any_open(std::size_t end) const;
-  bool is_out(const Limits& limits) const;
+  bool is_out(const Limits& limits);
   bool step_is_legal(const Entry& entry, std::int32_t com);
   bool placement_is_legal(const SearchNode& node, std::int32_t landing);
   const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }
-  float key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
+  double key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
 
   StepProposals* proposals_;
   const gaits::Scene* scene_;
@@ -121,7 +125,9 @@ class LayerSearch {
   std::int32_t goal_ = -1;
   bool swing_mattered_ = false;
   Front front_;
-  mutable unsigned asked_to_stop_ = 0;
+  unsigned asked_to_stop_ = 0;
+  bool stopped_ = false;
+  std::uint64_t waiting_ = 0;  ///< entries in all heaps
   std::uint64_t checked_ = 0, scanned_ = 0, entries_ = 0;
 };
 

@@ -61,11 +61,12 @@ bool LayersPlanner::add_solution() {
 
 ob::PlannerStatus LayersPlanner::solve(const ob::PlannerTerminationCondition& condition) {
   checkValidity();
+  condition_ = &condition;
   if (!search_) {
     std::vector<Node> starts;
     while (const ob::State* state = pis_.nextStart()) starts.push_back(StanceSpace::of(state).node);
     if (starts.empty()) return ob::PlannerStatus::INVALID_START;
-    options_.stop = [&condition] { return static_cast<bool>(condition); };
+    options_.stop = [this] { return static_cast<bool>(*condition_); };
     search_ = std::make_unique<AnytimeSearch>(*proposals_, starts, options_);
   }
   if (!search_->find(std::numeric_limits<std::uint64_t>::max())) return ob::PlannerStatus::TIMEOUT;

@@ -45,6 +45,7 @@ class LayersPlanner : public ompl::base::Planner {
 
   StepProposals* proposals_;
   AnytimeOptions options_;
+  const ompl::base::PlannerTerminationCondition* condition_ = nullptr;  ///< of the call that is running
   std::unique_ptr<AnytimeSearch> search_;
   int added_ = 0;  ///< the plan, counted by improvements, that was added last
 };

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <future>
 #include <stdexcept>
+#include <system_error>
+#include <type_traits>
 
 #include "gaits/rules.hpp"
 #include "planner/anytime_search.hpp"
@@ -33,7 +37,7 @@ constexpr Turn auto_turns[] = {{"RRT", 0.7, 1000}, {"EST", 0.3, 2000}, {"RRT", 0
 // Work of Layers, a third of a microsecond to one a unit.
 constexpr std::uint64_t stall_before_proof = 150'000;  ///< without progress: then it is time to ask whether there is a plan
 constexpr std::uint64_t greatest_stall = 1'500'000;
-constexpr std::uint64_t usual_improvement = 1'500'000;
+constexpr std::uint64_t usual_improvement = 1'000'000;
 
 std::vector<Turn> turns_of(const std::string& planner) {
   if (planner == "auto") return {std::begin(auto_turns), std::end(auto_turns)};
@@ -117,11 +121,11 @@ class Search {
   }
 
   /// Whether it can be proven that there is no plan; then that is the result.
-  bool is_impossible() {
+  bool is_impossible(const std::function<bool()>& stop = [] { return false; }) {
     if (!options_.prove || stopped()) return false;
-    options_.progress("looking for a reason why there is no plan ...");
     ProofLimits limits;
     limits.deadline = deadline_;
+    limits.stop = [this, &stop] { return options_.interrupted() || stop(); };
     const auto impossibility = prove_infeasible(scene_, limits);
     if (!impossibility) return false;
     plan_.status = gaits::Status::infeasible;
@@ -129,31 +133,66 @@ class Search {
     return true;
   }
 
-  std::vector<Node> search_layers(const std::vector<Node>& starts) {
-    AnytimeOptions anytime{options_.seed, options_.objective, [this] { return stopped(); }};
-    AnytimeSearch search(proposals_, starts, anytime);
+  /// Looks for a first plan and, once that stalls, for a proof that there is none beside it. Only one of the two can
+  /// exist, so it does not matter which thread is faster.
+  bool find_first(AnytimeSearch& search, std::atomic<bool>& proven) {
     options_.progress(fmt::format("searching (at most {} s) ...", options_.time_limit));
-    if (!search.find(stall_before_proof) && (is_impossible() || !search.find(greatest_stall))) {
-      if (plan_.status == gaits::Status::infeasible) return {};
+    if (search.find(stall_before_proof)) return true;
+    options_.progress("searching, and looking for a reason why there is no plan ...");
+    std::atomic<bool> found = false;
+    auto proof = beside([&] { return proven = is_impossible([&found] { return found.load(); }); });
+    found = search.find(greatest_stall);
+    proof.get();
+    return found;
+  }
+
+  std::vector<Node> search_layers(const std::vector<Node>& starts) {
+    std::atomic<bool> proven = false;
+    const AnytimeOptions anytime{options_.seed, options_.objective, [&] { return proven || stopped(); }};
+    AnytimeSearch search(proposals_, starts, anytime);
+    if (!find_first(search, proven)) {
+      if (proven) return {};
       std::vector<Node> path = take_turns(starts);
       if (path.empty()) plan_.reason += came_to(search.nearest_com());
       return path;
     }
     plan_.planner = "Layers";
-    improve(search);
+    improve(search, starts);
     plan_.resolution = search.resolution();
     return search.path();
   }
 
-  /// In slices, telling the best so far in between.
-  void improve(AnytimeSearch& search) {
-    constexpr double slices = 20;
+  /// Betters the plan, in slices and telling the best so far in between; beside it a second search with another lattice
+  /// does the same, and the better plan is kept.
+  void improve(AnytimeSearch& search, const std::vector<Node>& starts) {
     // A first plan that was dear (long terrain) has had its share of the work.
     const std::uint64_t spent = std::min(2 * search.work(), usual_improvement);
-    const double work = std::min(options_.effort * static_cast<double>(usual_improvement - spent), 1e18);
-    for (int i = 0; i < slices && !stopped(); ++i) {
+    const double usual = static_cast<double>(usual_improvement);
+    const auto work = static_cast<std::uint64_t>(
+        std::clamp(options_.effort * usual - static_cast<double>(spent), 0.0, 1e18));
+    if (work == 0) return;
+    auto other = beside([&] { return search_elsewhere(starts, work); });
+    const std::uint64_t slice = std::max<std::uint64_t>(work / 20, 1), until = search.work() + work;
+    while (!stopped() && search.work() < until && search.improve(slice))
       options_.progress(fmt::format("{} steps, looking for a better plan ...", search.path().size() - 1));
-      if (!search.improve(static_cast<std::uint64_t>(work / slices))) return;
+    search.offer(other.get());
+  }
+
+  std::vector<Node> search_elsewhere(const std::vector<Node>& starts, std::uint64_t work) const {
+    StepProposals proposals(scene_);
+    const AnytimeOptions anytime{turn_seed(options_.seed, 1), options_.objective, [this] { return stopped(); }};
+    AnytimeSearch search(proposals, starts, anytime);
+    if (search.find(stall_before_proof)) search.improve(work);
+    return search.path();
+  }
+
+  /// On a thread of its own, or when the result is asked for where there is none to be had.
+  template <class Work>
+  static std::future<std::invoke_result_t<Work>> beside(Work work) {
+    try {
+      return std::async(std::launch::async, work);
+    } catch (const std::system_error&) {
+      return std::async(std::launch::deferred, work);
     }
   }
 

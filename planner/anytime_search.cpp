@@ -23,7 +23,6 @@ constexpr double first_raise = 1.5;      ///< of the disturbances beyond what th
 constexpr double scale_precision = 0.02; ///< relative: a plan safer by less is not looked for
 constexpr double greatest_scale = 1e6;   ///< beyond, a plan bears anything
 constexpr std::uint64_t safety_stall = 60000;  ///< work without progress after which a scale counts as refused
-constexpr double straight_gain = 1e-3;   ///< relative: a shorter way of the COM that is worth another sweep
 
 /// Seeds other than 1: spacings between 0.8 and 1.2 of the standard.
 double spacing_factor(std::uint32_t seed) {

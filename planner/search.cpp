@@ -64,7 +64,7 @@ std::uint32_t turn_seed(std::uint32_t seed, std::size_t turn) {
 }
 
 void note_left_out(const gaits::Scene& scene, const ProposalCounts& counts, gaits::Plan& plan) {
-  if (counts.swings_skipped > 0)
+  if (counts.swings_skipped > 0 && plan.planner != "Layers")  // which counts no landings
     plan.left_out.push_back({fmt::format("swing test for {} of {} landings", counts.swings_skipped, counts.swings_asked),
                              "no terrain within the least reach of the COM: the shortened leg turns any way"});
   if (scene.criterion == gaits::Criterion::equilibrium)
@@ -222,7 +222,9 @@ class Search {
     const char* end = options_.interrupted()       ? "before the search was interrupted"
                       : Clock::now() < deadline_ ? "within the work a search may do"
                                                  : "within the time limit";
-    plan_.reason = fmt::format("no plan found {} ({}; {})", end, options_.planner, summary(proposals_.counts()));
+    // The counts are of OMPL's planners: Layers asks for no proposals.
+    plan_.reason = fmt::format("no plan found {} ({}{})", end, options_.planner,
+                               iterations > 0 ? "; " + summary(proposals_.counts()) : "");
     return {};
   }
 

@@ -7,6 +7,7 @@
 #include "stability/decisions.hpp"
 #include "stability/guard.hpp"
 #include "stability/point_test.hpp"
+#include "stability/polynomial_frame.hpp"
 
 namespace surefoot::stability {
 namespace {
@@ -39,24 +40,6 @@ class GravityQuery {
   Frame<double> frame_;
   Guard guard_;
   std::optional<Frame<Dyadic>> exact_;
-};
-
-/// The rows of a mode under gravity, p = q = 0: their middle slots.
-template <class V>
-struct GravityRows {
-  std::array<V, max_rows> value;
-  std::array<bool, max_rows> is_length{};
-  int count = 0;
-  std::optional<V> d;
-  void denominator(const V& at) { d = at; }
-  bool add(const Row<V>& row) {
-    value[count++] = row.one;
-    return false;
-  }
-  bool add_length(const Row<V>& row) {
-    is_length[count] = true;
-    return add(row);
-  }
 };
 
 enum class Answer { no, yes, unknown };

@@ -4,7 +4,7 @@
 
 #include "stability/box_test.hpp"
 #include "stability/frictional.hpp"
-#include "stability/region_poly.hpp"
+#include "stability/polynomial_frame.hpp"
 #include "stability/robust_oracle.hpp"
 
 namespace surefoot::stability {
@@ -12,45 +12,15 @@ namespace {
 
 constexpr double unlimited = HUGE_VAL;
 
-/// The frame as a function of the displacement (s, t) of the COM.
-Frame<Poly2> frame_about(const Posture& posture, const Eigen::Vector2d& com) {
-  const Frame<double> base = posture.frame(com);
-  Frame<Poly2> frame;
-  frame.rho2 = base.rho2;
-  frame.contacts = base.contacts;
-  for (int i = 0; i < base.contacts; ++i) {
-    const ContactTerms<double>& from = base.at[i];
-    ContactTerms<Poly2>& to = frame.at[i];
-    to.n = from.n, to.edge = from.edge, to.mu = from.mu;
-    to.r = {Poly2(from.r.x, -1, 0), Poly2(from.r.y, 0, -1)};
-    to.nz = cross(to.r, to.n);
-    for (int e : {edge_u, edge_w}) to.sz[e] = cross(to.r, to.edge[e]);
-  }
-  return frame;
-}
-
 /// Radius of a disc in which f keeps the sign it has in the middle: |f - f(0)| <= |gradient| r + |f''| / 2 r^2.
 double radius_of_sign(const Poly2& f) {
   const double middle = 0.5 * (f.ss + f.tt), spread = std::hypot(0.5 * (f.ss - f.tt), 0.5 * f.st);
   return first_root({-std::abs(f.c), std::hypot(f.s, f.t), std::abs(middle) + spread});
 }
 
-/// The rows of a mode under gravity.
-struct PolyRows {
-  std::array<Poly2, max_rows> value;
-  int count = 0;
-  std::optional<Poly2> d;
-  void denominator(const Poly2& at) { d = at; }
-  bool add(const Row<Poly2>& row) {
-    value[count++] = row.one;
-    return false;
-  }
-  bool add_length(const Row<Poly2>& row) { return add(row); }
-};
-
 /// Forces stay possible and one acceleration keeps leading back.
 double radius_of_mode(const Frame<Poly2>& frame, const ModeSpec& spec) {
-  PolyRows rows;
+  GravityRows<Poly2> rows;
   emit_rows(frame, spec, rows);
   double radius = rows.d ? radius_of_sign(*rows.d) : unlimited, back = 0;
   const double sign = rows.d && rows.d->c < 0 ? -1 : 1;
@@ -107,7 +77,7 @@ FrictionalMargins frictional_margins(const Posture& posture, const Eigen::Vector
   const double threshold = clattering_threshold(restitution);
   FrictionalMargins margins{root_psi - threshold, greatest_restitution(root_psi), 0};
   if (!frictional_verdict(posture, com, restitution).stable()) return margins;
-  const Frame<Poly2> frame = frame_about(posture, com);
+  const Frame<Poly2> frame = frame_around(posture, com, Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitY());
   margins.com = std::min(radius_of_equilibrium(posture, com), radius_of_clattering(frame, threshold));
   for (const ModeSpec& spec : posture.modes()) margins.com = std::min(margins.com, radius_of_mode(frame, spec));
   return margins;

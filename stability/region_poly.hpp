@@ -1,7 +1,6 @@
 // Number types on which rows.hpp and the curves of a region are evaluated as functions of the COM.
 //   Poly2  polynomial of degree <= 2 in two coordinates (s, t); products drop what is of higher degree, which is exact
-//   for
-//          the rows (at most two factors of degree 1) and gives the Taylor jet of second order for products of rows
+//          for the rows (at most two factors of degree 1) and gives the Taylor jet of second order for products of rows
 //   Jet    value and derivative along a line
 #pragma once
 

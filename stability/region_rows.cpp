@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stability/polynomial_frame.hpp"
+
 namespace surefoot::stability {
 namespace {
 
@@ -101,18 +103,7 @@ void tidy(RegionMode& mode) {
 RegionModes::RegionModes(const Posture& posture, const WrenchBox& box, const Vector2d& origin, const Vector2d& e_t)
     : posture_(posture), box_(box), line_(posture_, {box.kappa, box.nu}, 0), origin_(origin), e_s_(e_t.y(), -e_t.x()),
       e_t_(e_t) {
-  const Frame<double> base = posture.frame(origin);
-  Frame<Poly2> frame;
-  frame.rho2 = base.rho2;
-  frame.contacts = base.contacts;
-  for (int i = 0; i < base.contacts; ++i) {
-    const ContactTerms<double>& from = base.at[i];
-    ContactTerms<Poly2>& to = frame.at[i];
-    to.n = from.n, to.edge = from.edge, to.mu = from.mu;
-    to.r = {Poly2(from.r.x, -e_s_.x(), -e_t_.x()), Poly2(from.r.y, -e_s_.y(), -e_t_.y())};
-    to.nz = cross(to.r, to.n);
-    for (int e : {edge_u, edge_w}) to.sz[e] = cross(to.r, to.edge[e]);
-  }
+  const Frame<Poly2> frame = frame_around(posture, origin, e_s_, e_t_);
   modes_.reserve(posture.modes().size());
   for (const ModeSpec& spec : posture.modes()) {
     add(frame, spec, posture.contacts());

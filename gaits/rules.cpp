@@ -110,11 +110,15 @@ bool clear_of_terrain(const Scene& scene, const Vector2d& from, const Vector2d& 
   return !scene.terrain.blocks(from, to);
 }
 
-bool swing_is_free(const Scene& scene, const Vector2d& com, const Vector2d& old_foot, const Vector2d& new_foot) {
+bool swings_any_way(const Scene& scene, const Vector2d& com) {
   const double radius = scene.robot.reach_min;
-  if (radius == 0) return true;
   // distance() looks no further than it is told: a little beyond the radius, so that "further" can be told from "at".
-  if (scene.terrain.distance(com, 1.001 * radius) > radius) return true;  // the leg can turn any way
+  return radius == 0 || scene.terrain.distance(com, 1.001 * radius) > radius;
+}
+
+bool swing_is_free(const Scene& scene, const Vector2d& com, const Vector2d& old_foot, const Vector2d& new_foot) {
+  if (swings_any_way(scene, com)) return true;
+  const double radius = scene.robot.reach_min;
   const Vector2d from = old_foot - com, to = new_foot - com;
   return scene.terrain.sector_is_free(com, radius, from, to) || scene.terrain.sector_is_free(com, radius, to, from);
 }

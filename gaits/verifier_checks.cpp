@@ -140,12 +140,14 @@ void Checks::check_swing(const std::string& place, const Point& com, const Foot&
   }
 }
 
-RobustOracle Checks::oracle_of_feet(const Posture& feet) const {
+RobustOracle Checks::oracle_of_feet(const Posture& feet, double scale) const {
   std::vector<stability::Contact> contacts;
   for (const auto& foot : feet) {
     if (foot) contacts.push_back({foot->position, foot->segment->normal, foot->segment->surface.friction});
   }
-  return RobustOracle(contacts, scene_.robot.radius_of_gyration, scene_.disturbance);
+  stability::DisturbanceBox box = scene_.disturbance;
+  box.kappa *= scale, box.nu *= scale;
+  return RobustOracle(contacts, scene_.robot.radius_of_gyration, box);
 }
 
 bool Checks::stable(const RobustOracle& oracle, const Point& com) const {
@@ -157,7 +159,7 @@ double Checks::factor(const RobustOracle& oracle, const Point& com) const {
 }
 
 void Checks::check_stance_stability(const std::string& place, const Posture& feet, const Point& com, double stated) {
-  const RobustOracle oracle = oracle_of_feet(feet);
+  const RobustOracle oracle = oracle_of_feet(feet, 1);
   const double sigma = factor(oracle, com);
   if (scene_.criterion != Criterion::frictional && !stable(oracle, com)) {
     note(Rule::stance_stability, place, "not stable with the COM at {} (safety factor {:.6g})", show(com), sigma);
@@ -181,7 +183,7 @@ void Checks::check_frictional(const std::string& place, const RobustOracle& orac
 void Checks::check_line_stability(const std::string& place, const Posture& feet, const Point& from, const Point& to,
                                   double stated) {
   using Outcome = stability::LineVerdict::Outcome;
-  const RobustOracle oracle = oracle_of_feet(feet);
+  const RobustOracle oracle = oracle_of_feet(feet, 1);
   bool certified = false;
   double sigma = 0;
   if (robust()) {
@@ -199,22 +201,31 @@ void Checks::check_line_stability(const std::string& place, const Posture& feet,
     }
     sigma = oracle.line_equilibrium_factor(from, to).least.value;
   }
-  sample_line(place, oracle, from, to, sigma, certified);
+  sample_line(place, feet, from, to, sigma, certified);
   check_factor(Rule::transfer_stability, place, stated, sigma);
 }
 
-// A second look at what the straight-line test says, by the verdicts at points.
-void Checks::sample_line(const std::string& place, const RobustOracle& oracle, const Point& from, const Point& to,
+// A second look at what the straight-line test says, by the verdicts at points: for the box, and for the box as large as
+// the least factor says it may grow (what holds for a box holds for every smaller one).
+void Checks::sample_line(const std::string& place, const Posture& feet, const Point& from, const Point& to,
                          double least_factor, bool certified) {
+  const RobustOracle oracle = oracle_of_feet(feet, 1);
+  const double scale = least_factor * (1 - safety_factor_tolerance);
+  const double greatest = std::max(scene_.disturbance.kappa, scene_.disturbance.nu);
+  const bool scaled = scale > 0 && greatest > 0 && std::isfinite(scale * greatest);
+  const RobustOracle at_least = scaled ? oracle_of_feet(feet, scale) : oracle;
   for (int i = 0; i < line_samples; ++i) {
     const double lambda = static_cast<double>(i) / (line_samples - 1);
     const Point at = from + lambda * (to - from);
-    const double here = factor(oracle, at);
+    const bool reaches = scaled && stable(at_least, at);
+    if (reaches && scale >= 1) continue;
     if (certified && !stable(oracle, at)) {
       note(Rule::transfer_stability, place, "not stable at lambda = {:.6g}, though the straight-line test accepts",
            lambda);
       return;
     }
+    if (reaches) continue;
+    const double here = scale > 0 ? factor(oracle, at) : least_factor;
     if (here < least_factor && !same_factor(here, least_factor)) {
       note(Rule::transfer_stability, place,
            "the safety factor at lambda = {:.6g} is {}, below the least on the line, {}", lambda, here, least_factor);

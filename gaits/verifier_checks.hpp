@@ -51,9 +51,10 @@ class Checks {
  private:
   void compare_with_stated(const std::string& place, int leg, const terrain::Foothold& stated, const Foot& foot);
   void check_factor(Rule rule, const std::string& place, double stated, double found);
-  void sample_line(const std::string& place, const stability::RobustOracle& oracle, const Point& from, const Point& to,
+  void sample_line(const std::string& place, const Posture& feet, const Point& from, const Point& to,
                    double least_factor, bool certified);
-  stability::RobustOracle oracle_of_feet(const Posture& feet) const;
+  /// For disturbances of `scale` times the scene's.
+  stability::RobustOracle oracle_of_feet(const Posture& feet, double scale) const;
   /// Transfers, and what safety factors mean; stances are asked by criterion.
   bool robust() const { return scene_.criterion != Criterion::equilibrium; }
   void check_frictional(const std::string& place, const stability::RobustOracle& oracle, const Point& com);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/com_window.hpp"
-
 namespace surefoot::planner {
 
 using Eigen::Vector2d;
@@ -55,76 +53,125 @@ int ComCandidates::pair(int foot, int other, int level) {
   const int low = std::min(foot, other), high = std::max(foot, other);
   const auto [at, fresh] = numbers_.try_emplace(key_of(low, high, level), static_cast<int>(pairs_.size()));
   if (!fresh) return at->second;
-  Pair made{low, high, static_cast<std::int32_t>(coms_.size()), 0, level};
-  fresh_.clear();
-  make_coms(made, fresh_);
-  std::stable_sort(fresh_.begin(), fresh_.end(), [](const Com& a, const Com& b) { return a.to_goal < b.to_goal; });
-  made.count = static_cast<std::int32_t>(fresh_.size());
-  coms_.insert(coms_.end(), fresh_.begin(), fresh_.end());
-  pairs_.push_back(made);
+  pairs_.push_back({low, high, level});
+  pairs_.back().shape = make_shape(pairs_.back());
   return at->second;
 }
 
 int ComCandidates::add(int foot, int other, const Vector2d& com) {
-  const int low = std::min(foot, other), high = std::max(foot, other);
   const auto number = static_cast<std::int32_t>(coms_.size());
-  coms_.push_back({com, scene_->goal.distance(com)});
-  pairs_.push_back({low, high, number, 1, 0});
+  coms_.push_back({com, scene_->goal.distance(com), -1, -1, Verdict::holds});
+  pairs_.push_back({std::min(foot, other), std::max(foot, other), 0, number, number, -1});
   return number;
 }
 
-void ComCandidates::try_com(const gaits::Feet& feet, const stability::RobustOracle& oracle, const Vector2d& at,
-                            std::vector<Com>& coms) {
-  if (!gaits::within_reach(robot_, feet, at, at)) return;
-  ++asked_;
-  if (!gaits::is_stable(*scene_, oracle, at)) return;
-  if (scene_->terrain.distance(at, robot_.clearance) < robot_.clearance) return;
-  coms.push_back({at, scene_->goal.distance(at)});
+std::int32_t ComCandidates::next(int number, std::int32_t com) {
+  Pair& pair = pairs_[static_cast<std::size_t>(number)];
+  const auto known = [&] { return com < 0 ? pair.first : coms_[static_cast<std::size_t>(com)].after; };
+  while (known() < 0 && pair.shape >= 0) make_coms(pair);
+  return known();
 }
 
-void ComCandidates::add_columns(int level, const gaits::Feet& feet, const stability::RobustOracle& oracle, const Polygon& polygon,
-                                std::vector<Com>& coms) {
-  const auto by_x = [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); };
-  const auto [left, right] = std::minmax_element(polygon.begin(), polygon.end(), by_x);
-  const double x_low = left->x(), width = right->x() - x_low;
-  const int columns = columns_ << level;
-  for (int i = 0; i < columns; ++i) {
-    const double x = x_low + width * (2 * i + 1) / (2 * columns);
-    double low = 0, high = 0;
-    if (!cut(polygon, x, low, high)) continue;
-    bool reached = true;
-    for (const auto& foot : feet)
-      reached = reached && (!foot || within_reach(foot->position, robot_.reach_max, x, low, high));
-    if (!reached) continue;
-    const double inset = draw_in * (high - low);
-    low += inset, high -= inset;
-    for (int k = 0; k < most_raises; ++k) {
-      const double lacking = robot_.clearance - scene_->terrain.distance({x, low}, robot_.clearance);
-      if (lacking <= 0) break;
-      low += 1.01 * lacking;
-    }
-    if (low > high) continue;
-    // Low COMs reach farthest; above, the odd multiples of a fraction of the height that is halved with each level.
-    const int parts = 2 << level;
-    try_com(feet, oracle, {x, low}, coms);
-    for (int j = 1; j <= parts; j += 2) try_com(feet, oracle, {x, low + (high - low) * j / parts}, coms);
-    if (level == 0) try_com(feet, oracle, {x, high}, coms);
-  }
-}
-
-void ComCandidates::make_coms(const Pair& pair, std::vector<Com>& coms) {
+gaits::Feet ComCandidates::feet_of(const Pair& pair) const {
   gaits::Feet feet;
   feet[0] = (*lattice_)[pair.first_foot];
   feet[1] = (*lattice_)[pair.second_foot];
-  if ((feet[0]->position - feet[1]->position).norm() >= 2 * robot_.reach_max) return;
+  return feet;
+}
+
+std::int32_t ComCandidates::make_shape(const Pair& pair) {
+  const gaits::Feet feet = feet_of(pair);
+  if ((feet[0]->position - feet[1]->position).norm() >= 2 * robot_.reach_max) return -1;
   const Polygon window = reach_window(feet, robot_.reach_max);
-  if (window.empty()) return;
-  const auto oracle = gaits::oracle_of(*scene_, feet, box_);
-  const Polygon polygon = oracle.equilibrium_polygon(window);
-  if (polygon.empty()) return;
-  add_columns(pair.level, feet, oracle, polygon, coms);
-  if (const Polygon in_goal = clip_to_goal(polygon, scene_->goal); !in_goal.empty())
-    add_columns(pair.level, feet, oracle, in_goal, coms);
+  if (window.empty()) return -1;
+  Shape shape;
+  shape.whole = gaits::oracle_of(*scene_, feet, box_).equilibrium_polygon(window);
+  if (shape.whole.empty()) return -1;
+  shape.in_goal = clip_to_goal(shape.whole, scene_->goal);
+  list_columns(pair.level, shape.whole, false, shape.columns);
+  if (!shape.in_goal.empty()) list_columns(pair.level, shape.in_goal, true, shape.columns);
+  std::stable_sort(shape.columns.begin(), shape.columns.end(),
+                   [](const Column& a, const Column& b) { return a.to_goal < b.to_goal; });
+  std::reverse(shape.columns.begin(), shape.columns.end());
+  if (free_shapes_.empty()) {
+    shapes_.push_back(std::move(shape));
+    return static_cast<std::int32_t>(shapes_.size()) - 1;
+  }
+  const std::int32_t number = free_shapes_.back();
+  free_shapes_.pop_back();
+  shapes_[static_cast<std::size_t>(number)] = std::move(shape);
+  return number;
+}
+
+void ComCandidates::list_columns(int level, const Polygon& polygon, bool in_goal, std::vector<Column>& columns) const {
+  const auto by_x = [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); };
+  const auto [left, right] = std::minmax_element(polygon.begin(), polygon.end(), by_x);
+  const double x_low = left->x(), width = right->x() - x_low;
+  const int count = columns_ << level;
+  for (int i = 0; i < count; ++i) {
+    const double x = x_low + width * (2 * i + 1) / (2 * count);
+    // With a goal of heights, how near a column comes is not known before its COMs are.
+    const double to_goal = scene_->goal.com_y ? 0 : scene_->goal.distance({x, 0});
+    columns.push_back({x, to_goal, in_goal});
+  }
+}
+
+/// Those of the next column; of all, where the columns do not lie in the order of their COMs.
+void ComCandidates::make_coms(Pair& pair) {
+  Shape& shape = shapes_[static_cast<std::size_t>(pair.shape)];
+  const gaits::Feet feet = feet_of(pair);
+  fresh_.clear();
+  do {
+    const Column column = shape.columns.back();
+    shape.columns.pop_back();
+    fill_column(pair.level, feet, column.in_goal ? shape.in_goal : shape.whole, column.x);
+  } while (!shape.columns.empty() && (fresh_.empty() || scene_->goal.com_y));
+  std::stable_sort(fresh_.begin(), fresh_.end(), [](const Com& a, const Com& b) { return a.to_goal < b.to_goal; });
+  for (const Com& com : fresh_) {
+    const auto number = static_cast<std::int32_t>(coms_.size());
+    (pair.last < 0 ? pair.first : coms_[static_cast<std::size_t>(pair.last)].after) = number;
+    pair.last = number;
+    coms_.push_back(com);
+  }
+  if (!shape.columns.empty()) return;
+  shape = {};
+  free_shapes_.push_back(pair.shape);
+  pair.shape = -1;
+}
+
+bool ComCandidates::holds(int number, std::int32_t of_com) {
+  Com& com = coms_[static_cast<std::size_t>(of_com)];
+  if (com.verdict != Verdict::open) return com.verdict == Verdict::holds;
+  ++asked_;
+  const gaits::Feet feet = feet_of(pairs_[static_cast<std::size_t>(number)]);
+  const bool holds = scene_->terrain.distance(com.at, robot_.clearance) >= robot_.clearance &&
+                     gaits::is_stable(*scene_, gaits::oracle_of(*scene_, feet, box_), com.at);
+  com.verdict = holds ? Verdict::holds : Verdict::breaks;
+  return holds;
+}
+
+void ComCandidates::fill_column(int level, const gaits::Feet& feet, const Polygon& polygon, double x) {
+  double low = 0, high = 0;
+  if (!cut(polygon, x, low, high)) return;
+  for (const auto& foot : feet)
+    if (foot && !within_reach(foot->position, robot_.reach_max, x, low, high)) return;
+  const double inset = draw_in * (high - low);
+  low += inset, high -= inset;
+  for (int k = 0; k < most_raises; ++k) {
+    const double lacking = robot_.clearance - scene_->terrain.distance({x, low}, robot_.clearance);
+    if (lacking <= 0) break;
+    low += 1.01 * lacking;
+  }
+  if (low > high) return;
+  // Low COMs reach farthest; above, the odd multiples of a fraction of the height that is halved with each level.
+  const int parts = 2 << level;
+  const auto note = [&](double y) {
+    const Vector2d at(x, y);
+    if (gaits::within_reach(robot_, feet, at, at)) fresh_.push_back({at, scene_->goal.distance(at)});
+  };
+  note(low);
+  for (int j = 1; j <= parts; j += 2) note(low + (high - low) * j / parts);
+  if (level == 0) note(high);
 }
 
 }  // namespace surefoot::planner

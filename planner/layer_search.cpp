@@ -65,27 +65,51 @@ bool LayerSearch::placement_is_legal(const SearchNode& node, std::int32_t landin
   ++checked_;
   const Vector2d& com = coms_.com(node.com).at;
   if (!scene_->terrain.leg_is_free(com, foot(landing))) return false;
-  if (node.old_foot < 0) return true;
+  if (node.old_foot < 0 || node.swings_any_way) return true;
   if (gaits::swing_is_free(*scene_, com, foot(node.old_foot).position, foot(landing).position)) return true;
   swing_mattered_ = true;
   return false;
 }
 
-/// Steps that land at one place, for COMs of one level.
-void LayerSearch::push_steps(std::int32_t number, std::int32_t landing, int level) {
+void LayerSearch::push(std::size_t k, Entry entry) {
+  entry.number = entries_++;
+  put_back(k, entry);
+}
+
+/// Until a pair is looked at, its COM may be anywhere within reach: say in the middle of its feet.
+double LayerSearch::key_of_pair(std::int32_t foot_a, std::int32_t foot_b) const {
+  return scene_->goal.distance(0.5 * (foot(foot_a).position + foot(foot_b).position));
+}
+
+/// Steps that land at one place, for COMs of levels from first_level on.
+void LayerSearch::push_landing(std::int32_t number, std::int32_t landing, int first_level, int level) {
   const SearchNode& node = nodes_[number];
+  const auto& pair = coms_[node.pair];
+  Entry entry{};
+  entry.key = std::min(key_of_pair(landing, pair.first_foot), key_of_pair(landing, pair.second_foot));
+  entry.node = number, entry.landing = landing, entry.lifted = -1, entry.pair = -1, entry.last = -1;
+  entry.first_level = static_cast<std::int16_t>(first_level), entry.level = static_cast<std::int16_t>(level);
+  push(static_cast<std::size_t>(node.layer) + 1, entry);
+}
+
+/// The landing is legal: its steps, by the leg that is lifted.
+void LayerSearch::push_steps(std::size_t k, const Entry& landing) {
+  const SearchNode& node = nodes_[landing.node];
   const int feet[] = {coms_[node.pair].first_foot, coms_[node.pair].second_foot};
-  for (const int k : {0, 1}) {
-    // Until the pair is looked at, its COM may be anywhere within reach: say in the middle of its feet.
-    const Vector2d middle = 0.5 * (foot(landing).position + foot(feet[1 - k]).position);
-    Entry entry{scene_->goal.distance(middle), number, landing, feet[k], -1, level, 0, entries_++};
-    put_back(static_cast<std::size_t>(node.layer) + 1, entry);
+  for (int level = landing.first_level; level <= landing.level; ++level) {
+    Entry entry = landing;
+    entry.first_level = entry.level = static_cast<std::int16_t>(level);
+    for (const int i : {0, 1}) {
+      entry.lifted = feet[i];
+      entry.key = key_of_pair(landing.landing, feet[1 - i]);
+      push(k, entry);
+    }
+    if (node.level == 0) continue;
+    // The leg just placed is lifted again: the COM moves, the support stays. Seldom of use.
+    entry.lifted = landing.landing;
+    entry.key = key_of_pair(feet[0], feet[1]);
+    push(k, entry);
   }
-  if (node.level == 0) return;
-  // The leg just placed is lifted again: the COM moves, the support stays. Seldom of use.
-  const Vector2d middle = 0.5 * (foot(feet[0]).position + foot(feet[1]).position);
-  Entry entry{scene_->goal.distance(middle), number, landing, landing, -1, level, 0, entries_++};
-  put_back(static_cast<std::size_t>(node.layer) + 1, entry);
 }
 
 /// Pushes what levels up to this one add to what has been pushed before.
@@ -94,8 +118,9 @@ void LayerSearch::expand(std::int32_t number, int level, int below) {
   if (node.level >= level) return;
   if (node.layer + least_steps(coms_.com(node.com).to_goal, robot_.reach_max) >= below) return;
   nodes_[number].level = level;
+  nodes_[number].swings_any_way = gaits::swings_any_way(*scene_, coms_.com(node.com).at);
   if (layers_.size() < static_cast<std::size_t>(node.layer) + 2) layers_.resize(static_cast<std::size_t>(node.layer) + 2);
-  const auto& pair = coms_[node.pair];
+  const auto pair = coms_[node.pair];
   lattice_.look_from(coms_.com(node.com).at, robot_.reach_min, robot_.reach_max);
   for (int of_landing = 0; of_landing <= level; ++of_landing) {
     lattice_.list(of_landing, landings_);
@@ -103,9 +128,7 @@ void LayerSearch::expand(std::int32_t number, int level, int below) {
       const Vector2d& at = foot(landing).position;
       if (landing == pair.first_foot || landing == pair.second_foot) continue;
       if (at == foot(pair.first_foot).position || at == foot(pair.second_foot).position) continue;
-      if (!placement_is_legal(node, landing)) continue;
-      for (int of_com = 0; of_com <= level; ++of_com)
-        if (std::max(of_landing, of_com) > node.level) push_steps(number, landing, of_com);
+      push_landing(number, landing, of_landing > node.level ? 0 : node.level + 1, level);
     }
   }
 }
@@ -124,38 +147,47 @@ bool LayerSearch::step_is_legal(const Entry& entry, std::int32_t number) {
   return gaits::is_stable(*scene_, gaits::oracle_of(*scene_, three, box_), from, to);
 }
 
-/// Takes the best step of a layer: gives it up, finds it to be less good than it seemed and puts it back, or checks it;
-/// if it is legal, it leads to a new stance of the layer.
+/// Takes the best entry of a layer: gives it up, finds it to be less good than it seemed and puts it back, or checks its
+/// landing or a step; if that is legal, it leads to a new stance of the layer.
 void LayerSearch::pop(std::size_t k, const Limits& limits) {
   auto& heap = layers_[k].heap;
   std::pop_heap(heap.begin(), heap.end());
   Entry entry = heap.back();
   heap.pop_back();
   --waiting_;
-  const int layer = static_cast<int>(k);
-  if (nodes_[entry.node].layer + 1 != layer) return;  // since then it was reached sooner: its steps are there
+  const SearchNode node = nodes_[entry.node];
+  if (node.layer + 1 != static_cast<int>(k)) return;  // since then it was reached sooner: its steps are there
+  if (entry.lifted < 0) {
+    if (placement_is_legal(node, entry.landing)) push_steps(k, entry);
+    return;
+  }
   if (entry.pair < 0) {
-    const auto& from = coms_[nodes_[entry.node].pair];
+    const auto& from = coms_[node.pair];
     const int kept = from.first_foot == entry.lifted ? from.second_foot : from.first_foot;
     const int other = entry.lifted == entry.landing ? from.first_foot : entry.landing;
     entry.pair = coms_.pair(kept == other ? from.second_foot : kept, other, entry.level);
   }
-  const auto& pair = coms_[entry.pair];
+  try_coms(k, entry, limits);
+}
+
+/// Tries the next COM of a step that comes into question.
+void LayerSearch::try_coms(std::size_t k, Entry entry, const Limits& limits) {
+  const int layer = static_cast<int>(k);
   const Vector2d& lifted = foot(entry.lifted).position;
-  const Vector2d& from = coms_.com(nodes_[entry.node].com).at;
-  for (; entry.next < pair.count; ++entry.next) {
+  const Vector2d from = coms_.com(nodes_[entry.node].com).at;
+  for (std::int32_t number; (number = coms_.next(entry.pair, entry.last)) >= 0; entry.last = number) {
     ++scanned_;
-    const std::int32_t number = pair.first + entry.next;
-    const auto& com = coms_.com(number);
-    if (com.node >= 0 && nodes_[com.node].layer <= layer) continue;
+    const auto com = coms_.com(number);
+    if (com.verdict == ComCandidates::Verdict::breaks || (com.node >= 0 && nodes_[com.node].layer <= layer)) continue;
     if (layer + least_steps(com.to_goal, robot_.reach_max) >= limits.below) return;  // so are those behind it
     if (!gaits::within_reach(robot_, lifted, from, com.at)) continue;
     if (const double true_key = key(com.at, entry.pair); true_key > entry.key) {
       entry.key = true_key;
       return put_back(k, entry);
     }
-    ++entry.next;
-    if (entry.next < pair.count) put_back(k, entry);
+    if (!coms_.holds(entry.pair, number)) continue;
+    entry.last = number;
+    put_back(k, entry);
     if (step_is_legal(entry, number)) reach(k, entry, number);
     return;
   }

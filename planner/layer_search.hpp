@@ -70,19 +70,22 @@ class LayerSearch {
     std::int32_t old_foot;  ///< where the free leg was lifted from; -1: nowhere
     std::int32_t start;     ///< which of the starts, at layer 0
     int level = -1;         ///< that it was expanded on
+    bool swings_any_way = false;  ///< set when it is expanded
   };
-  /// Steps from a stance that land at one place and lift one leg: all COMs of the pair that is left.
+  /// Steps from a stance that land at one place: first all of them, the landing not yet looked at; then, by the leg that
+  /// is lifted, all COMs of a level of the pair that is left.
   struct Entry {
     double key;                  ///< [m], smaller first
+    std::uint64_t number = 0;    ///< ties go by age
     std::int32_t node;
-    std::int32_t landing, lifted;
+    std::int32_t landing;
+    std::int32_t lifted = -1;    ///< -1: the landing has not been looked at
     std::int32_t pair = -1;      ///< not yet asked for
-    int level = 0;               ///< of the COMs
-    std::int32_t next = 0;       ///< the COM whose turn it is
-    bool operator<(const Entry& other) const {  // for a heap with the smallest on top; ties by age
+    std::int32_t last = -1;      ///< the COM that was tried last
+    std::int16_t first_level = 0, level = 0;  ///< of the COMs
+    bool operator<(const Entry& other) const {  // for a heap with the smallest on top
       return key != other.key ? key > other.key : number > other.number;
     }
-    std::uint64_t number = 0;
   };
   struct Layer {
     std::vector<Entry> heap;
@@ -104,13 +107,17 @@ class LayerSearch {
   void reach(std::size_t k, const Entry& entry, std::int32_t com);
   void put_back(std::size_t k, const Entry& entry);
   void expand(std::int32_t node, int level, int below);
-  void push_steps(std::int32_t node, std::int32_t landing, int level);
+  void push_landing(std::int32_t node, std::int32_t landing, int first_level, int level);
+  void push_steps(std::size_t k, const Entry& entry);
+  void push(std::size_t k, Entry entry);
+  void try_coms(std::size_t k, Entry entry, const Limits& limits);
   bool any_open(std::size_t end) const;
   bool is_out(const Limits& limits);
   bool step_is_legal(const Entry& entry, std::int32_t com);
   bool placement_is_legal(const SearchNode& node, std::int32_t landing);
   const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }
   double key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
+  double key_of_pair(std::int32_t foot_a, std::int32_t foot_b) const;  ///< [m]
 
   StepProposals* proposals_;
   const gaits::Scene* scene_;

@@ -49,11 +49,16 @@ ComCandidates::ComCandidates(const gaits::Scene& scene, const FootholdLattice& l
                              const stability::DisturbanceBox& box)
     : scene_(&scene), lattice_(&lattice), robot_(gaits::drawn_in(scene.robot)), columns_(columns), box_(box) {}
 
+ComCandidates::Pair ComCandidates::made(int foot, int other, int level) const {
+  const double a = scene_->goal.distance((*lattice_)[foot].position), b = scene_->goal.distance((*lattice_)[other].position);
+  return {std::min(foot, other), std::max(foot, other), level, std::max(a, b), std::min(a, b)};
+}
+
 int ComCandidates::pair(int foot, int other, int level) {
   const int low = std::min(foot, other), high = std::max(foot, other);
   const auto [at, fresh] = numbers_.try_emplace(key_of(low, high, level), static_cast<int>(pairs_.size()));
   if (!fresh) return at->second;
-  pairs_.push_back({low, high, level});
+  pairs_.push_back(made(low, high, level));
   pairs_.back().shape = make_shape(pairs_.back());
   return at->second;
 }
@@ -61,7 +66,8 @@ int ComCandidates::pair(int foot, int other, int level) {
 int ComCandidates::add(int foot, int other, const Vector2d& com) {
   const auto number = static_cast<std::int32_t>(coms_.size());
   coms_.push_back({com, scene_->goal.distance(com), -1, -1, Verdict::holds});
-  pairs_.push_back({std::min(foot, other), std::max(foot, other), 0, number, number, -1});
+  pairs_.push_back(made(foot, other, 0));
+  pairs_.back().first = pairs_.back().last = number;
   return number;
 }
 
@@ -148,6 +154,13 @@ bool ComCandidates::holds(int number, std::int32_t of_com) {
                      gaits::is_stable(*scene_, gaits::oracle_of(*scene_, feet, box_), com.at);
   com.verdict = holds ? Verdict::holds : Verdict::breaks;
   return holds;
+}
+
+std::int32_t ComCandidates::try_one(int number, const Vector2d& at) {
+  if (!gaits::within_reach(robot_, feet_of(pairs_[static_cast<std::size_t>(number)]), at, at)) return -1;
+  coms_.push_back({at, scene_->goal.distance(at)});
+  const auto com = static_cast<std::int32_t>(coms_.size()) - 1;
+  return holds(number, com) ? com : -1;
 }
 
 void ComCandidates::fill_column(int level, const gaits::Feet& feet, const Polygon& polygon, double x) {

@@ -29,6 +29,7 @@ class ComCandidates {
   struct Pair {
     int first_foot = 0, second_foot = 0;  ///< numbers in the lattice, the lower first
     int level = 0;
+    double rear = 0, front = 0;           ///< the farther and the nearer foot from the goal [m]
     std::int32_t first = -1, last = -1;   ///< of its COMs made so far
     std::int32_t shape = -1;              ///< what more are made from; -1: there are no more
   };
@@ -45,6 +46,9 @@ class ComCandidates {
   std::int32_t next(int pair, std::int32_t com);
   /// Whether a COM of the pair satisfies the rules of a stance. Asks them once.
   bool holds(int pair, std::int32_t com);
+
+  /// Takes up another COM of a pair if it holds, apart from the pair's list. -1 if it does not.
+  std::int32_t try_one(int pair, const Eigen::Vector2d& at);
 
   const Pair& operator[](int pair) const { return pairs_[static_cast<std::size_t>(pair)]; }
   Com& com(int number) { return coms_[static_cast<std::size_t>(number)]; }
@@ -63,6 +67,7 @@ class ComCandidates {
     Polygon whole, in_goal;       ///< R_SS(W) near the feet
     std::vector<Column> columns;  ///< the next is the last
   };
+  Pair made(int foot, int other, int level) const;
   std::int32_t make_shape(const Pair& pair);
   void list_columns(int level, const Polygon& polygon, bool in_goal, std::vector<Column>& columns) const;
   void make_coms(Pair& pair);

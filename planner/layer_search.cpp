@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace surefoot::planner {
 
@@ -11,17 +12,27 @@ namespace {
 
 /// Weight of the feet against the COM in the order of a layer: of two stances with the same COM the one whose feet are
 /// ahead has come farther.
-constexpr double feet_share = 0.3;
+static const double feet_share = std::getenv("FS") ? std::atof(std::getenv("FS")) : 0.3;
 constexpr unsigned stop_interval = 64;  ///< looks at the limits per question whether to stop, which reads a clock
 constexpr int width_factor = 4;  ///< by which the layers before a dead end are widened each time it is met
 
 
 }  // namespace
 
+int least_steps(const ToGoal& stance, double reach_max) {
+  if (!(stance.com > 0)) return 0;
+  constexpr double most = 1e8;
+  const double turn = 2 * reach_max;
+  /// Rounds of three steps until `gain` times the reach brings a distance to nothing.
+  const auto rounds = [&](double distance, double first) {
+    return std::clamp(std::ceil((distance - first * reach_max) / turn * (1 - 1e-9) - 1e-9), 0.0, most);
+  };
+  const double com = 3 * rounds(stance.com, 0), rear = 3 * rounds(stance.rear, 1) + 1, front = 3 * rounds(stance.front, 1) + 2;
+  return static_cast<int>(std::min({com, rear, front}));
+}
+
 int least_steps(double distance, double reach_max) {
-  if (!(distance > 0)) return 0;
-  const double triples = std::ceil(distance / (2 * reach_max) * (1 - 1e-9));
-  return triples < 1e8 ? 3 * (static_cast<int>(triples) - 1) + 1 : 300000000;
+  return least_steps({distance, distance - reach_max, distance - reach_max}, reach_max);
 }
 
 LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& starts, const LatticeResolution& resolution,
@@ -48,6 +59,11 @@ LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& star
   }
 }
 
+ToGoal LayerSearch::to_goal(const Vector2d& com, std::int32_t number) const {
+  const auto& pair = coms_[number];
+  return {scene_->goal.distance(com), pair.rear, pair.front};
+}
+
 double LayerSearch::key(const Vector2d& com, std::int32_t pair) const {
   const auto& feet = coms_[pair];
   const Vector2d middle = 0.5 * (foot(feet.first_foot).position + foot(feet.second_foot).position);
@@ -55,10 +71,23 @@ double LayerSearch::key(const Vector2d& com, std::int32_t pair) const {
 }
 
 void LayerSearch::put_back(std::size_t k, const Entry& entry) {
-  auto& heap = layers_[k].heap;
   ++waiting_;
-  heap.push_back(entry);
-  std::push_heap(heap.begin(), heap.end());
+  std::uint32_t at = static_cast<std::uint32_t>(waiting_entries_.size());
+  if (free_entries_.empty()) {
+    waiting_entries_.push_back(entry);
+  } else {
+    at = free_entries_.back();
+    free_entries_.pop_back();
+    waiting_entries_[at] = entry;
+  }
+  layers_[k].heap.push({entry.key, entry.number, at});
+}
+
+LayerSearch::Entry LayerSearch::take_best(std::size_t k) {
+  const std::uint32_t at = layers_[k].heap.pop().payload;
+  free_entries_.push_back(at);
+  --waiting_;
+  return waiting_entries_[at];
 }
 
 bool LayerSearch::placement_is_legal(const SearchNode& node, std::int32_t landing) {
@@ -72,7 +101,7 @@ bool LayerSearch::placement_is_legal(const SearchNode& node, std::int32_t landin
 }
 
 void LayerSearch::push(std::size_t k, Entry entry) {
-  entry.number = entries_++;
+  entry.number = static_cast<std::uint32_t>(entries_++);
   put_back(k, entry);
 }
 
@@ -81,15 +110,29 @@ double LayerSearch::key_of_pair(std::int32_t foot_a, std::int32_t foot_b) const 
   return scene_->goal.distance(0.5 * (foot(foot_a).position + foot(foot_b).position));
 }
 
+/// After a step onto a foothold that lifts another and keeps a third, so many steps at least make a plan: the COM is
+/// within reach of all three.
+bool LayerSearch::is_too_long(std::size_t k, std::int32_t landing, std::int32_t lifted, std::int32_t kept) const {
+  if (below_ == no_bound) return false;
+  const double a = scene_->goal.distance(foot(landing).position), b = scene_->goal.distance(foot(kept).position);
+  const double farthest = std::max({a, b, scene_->goal.distance(foot(lifted).position)});
+  const ToGoal after{farthest - robot_.reach_max, std::max(a, b), std::min(a, b)};
+  return static_cast<int>(k) + least_steps(after, robot_.reach_max) >= below_;
+}
+
 /// Steps that land at one place, for COMs of levels from first_level on.
 void LayerSearch::push_landing(std::int32_t number, std::int32_t landing, int first_level, int level) {
   const SearchNode& node = nodes_[number];
   const auto& pair = coms_[node.pair];
+  const auto layer = static_cast<std::size_t>(node.layer) + 1;
+  if (is_too_long(layer, landing, pair.first_foot, pair.second_foot) &&
+      is_too_long(layer, landing, pair.second_foot, pair.first_foot))
+    return;
   Entry entry{};
   entry.key = std::min(key_of_pair(landing, pair.first_foot), key_of_pair(landing, pair.second_foot));
   entry.node = number, entry.landing = landing, entry.lifted = -1, entry.pair = -1, entry.last = -1;
   entry.first_level = static_cast<std::int16_t>(first_level), entry.level = static_cast<std::int16_t>(level);
-  push(static_cast<std::size_t>(node.layer) + 1, entry);
+  push(layer, entry);
 }
 
 /// The landing is legal: its steps, by the leg that is lifted.
@@ -100,11 +143,12 @@ void LayerSearch::push_steps(std::size_t k, const Entry& landing) {
     Entry entry = landing;
     entry.first_level = entry.level = static_cast<std::int16_t>(level);
     for (const int i : {0, 1}) {
+      if (is_too_long(k, landing.landing, feet[i], feet[1 - i])) continue;
       entry.lifted = feet[i];
       entry.key = key_of_pair(landing.landing, feet[1 - i]);
       push(k, entry);
     }
-    if (node.level == 0) continue;
+    if (node.level == 0 || is_too_long(k, feet[0], landing.landing, feet[1])) continue;
     // The leg just placed is lifted again: the COM moves, the support stays. Seldom of use.
     entry.lifted = landing.landing;
     entry.key = key_of_pair(feet[0], feet[1]);
@@ -113,15 +157,17 @@ void LayerSearch::push_steps(std::size_t k, const Entry& landing) {
 }
 
 /// Pushes what levels up to this one add to what has been pushed before.
-void LayerSearch::expand(std::int32_t number, int level, int below) {
+void LayerSearch::expand(std::int32_t number, int level, const Limits& limits) {
+  const int below = limits.below;
   const SearchNode node = nodes_[number];
   if (node.level >= level) return;
-  if (node.layer + least_steps(coms_.com(node.com).to_goal, robot_.reach_max) >= below) return;
+  if (node.layer + least_steps(to_goal(coms_.com(node.com).at, node.pair), robot_.reach_max) >= below) return;
   nodes_[number].level = level;
   nodes_[number].swings_any_way = gaits::swings_any_way(*scene_, coms_.com(node.com).at);
   if (layers_.size() < static_cast<std::size_t>(node.layer) + 2) layers_.resize(static_cast<std::size_t>(node.layer) + 2);
   const auto pair = coms_[node.pair];
   lattice_.look_from(coms_.com(node.com).at, robot_.reach_min, robot_.reach_max);
+  if (limits.far && !node.far) push_far_landings(number, level), nodes_[number].far = true;
   for (int of_landing = 0; of_landing <= level; ++of_landing) {
     lattice_.list(of_landing, landings_);
     for (const int landing : landings_) {
@@ -150,11 +196,7 @@ bool LayerSearch::step_is_legal(const Entry& entry, std::int32_t number) {
 /// Takes the best entry of a layer: gives it up, finds it to be less good than it seemed and puts it back, or checks its
 /// landing or a step; if that is legal, it leads to a new stance of the layer.
 void LayerSearch::pop(std::size_t k, const Limits& limits) {
-  auto& heap = layers_[k].heap;
-  std::pop_heap(heap.begin(), heap.end());
-  Entry entry = heap.back();
-  heap.pop_back();
-  --waiting_;
+  Entry entry = take_best(k);
   const SearchNode node = nodes_[entry.node];
   if (node.layer + 1 != static_cast<int>(k)) return;  // since then it was reached sooner: its steps are there
   if (entry.lifted < 0) {
@@ -170,6 +212,38 @@ void LayerSearch::pop(std::size_t k, const Limits& limits) {
   try_coms(k, entry, limits);
 }
 
+/// A COM between a legal one and the last before it, nearer to the goal, that is not: as near as halving finds.
+std::int32_t LayerSearch::sharpened(const Entry& entry, std::int32_t number) {
+  std::int32_t ahead = -1;
+  double to_goal = -1;
+  for (std::int32_t i = coms_.next(entry.pair, -1); i >= 0 && i != number; i = coms_.next(entry.pair, i))
+    if (coms_.com(i).to_goal > to_goal && coms_.com(i).to_goal < coms_.com(number).to_goal) ahead = i, to_goal = coms_.com(i).to_goal;
+  if (ahead < 0) return number;
+  const Vector2d begin = coms_.com(number).at, way = coms_.com(ahead).at - begin;
+  double low = 0, high = 1;
+  std::int32_t best = number;
+  for (int i = 0; i < 4; ++i) {
+    const double t = 0.5 * (low + high);
+    const std::int32_t tried = coms_.try_one(entry.pair, begin + t * way);
+    if (tried >= 0 && step_is_legal(entry, tried)) low = t, best = tried; else high = t;
+  }
+  return best;
+}
+
+/// The ends of what the stance reaches, exactly.
+void LayerSearch::push_far_landings(std::int32_t number, int level) {
+  for (const terrain::Stretch& stretch : lattice_.stretches()) {
+    const terrain::Segment& segment = *stretch.segment;
+    const Vector2d a = segment.a + (stretch.s_begin - segment.s_begin) * segment.tangent, b = segment.a + (stretch.s_end - segment.s_begin) * segment.tangent;
+    const bool end = scene_->goal.distance(b) < scene_->goal.distance(a);
+    const double margin = 0.02 * robot_.reach_max;
+    if (end ? stretch.s_end > segment.s_begin + segment.length - margin : stretch.s_begin < segment.s_begin + margin) continue;
+    const auto foothold = scene_->terrain.foothold_at(segment.chain, end ? stretch.s_end : stretch.s_begin);
+    if (!foothold) continue;
+    push_landing(number, lattice_.add(*foothold), 0, level);
+  }
+}
+
 /// Tries the next COM of a step that comes into question.
 void LayerSearch::try_coms(std::size_t k, Entry entry, const Limits& limits) {
   const int layer = static_cast<int>(k);
@@ -179,13 +253,19 @@ void LayerSearch::try_coms(std::size_t k, Entry entry, const Limits& limits) {
     ++scanned_;
     const auto com = coms_.com(number);
     if (com.verdict == ComCandidates::Verdict::breaks || (com.node >= 0 && nodes_[com.node].layer <= layer)) continue;
-    if (layer + least_steps(com.to_goal, robot_.reach_max) >= limits.below) return;  // so are those behind it
+    if (layer + least_steps({com.to_goal, coms_[entry.pair].rear, coms_[entry.pair].front}, robot_.reach_max) >= limits.below) return;  // so are those behind it
     if (!gaits::within_reach(robot_, lifted, from, com.at)) continue;
     if (const double true_key = key(com.at, entry.pair); true_key > entry.key) {
       entry.key = true_key;
       return put_back(k, entry);
     }
     if (!coms_.holds(entry.pair, number)) continue;
+    if (limits.sharpen && !entry.sharpened && step_is_legal(entry, number)) {
+      entry.sharpened = true;
+      put_back(k, entry);
+      reach(k, entry, sharpened(entry, number));
+      return;
+    }
     entry.last = number;
     put_back(k, entry);
     if (step_is_legal(entry, number)) reach(k, entry, number);
@@ -211,7 +291,7 @@ bool LayerSearch::run_layer(std::size_t k, const Limits& limits) {
       if (is_out(limits)) return;
       if (layer->raised >= static_cast<std::size_t>(layer->width)) return;
       const std::int32_t node = layer->nodes[layer->raised++];
-      if (nodes_[node].layer == static_cast<std::int32_t>(k)) expand(node, layer->level, limits.below);
+      if (nodes_[node].layer == static_cast<std::int32_t>(k)) expand(node, layer->level, limits);
     }
   };
   expand_waiting();
@@ -258,6 +338,7 @@ bool LayerSearch::is_out(const Limits& limits) {
 
 LayerSearch::End LayerSearch::run(const Limits& limits) {
   goal_ = -1;
+  below_ = limits.below;
   stopped_ = limits.stop();
   const auto prepare = [&limits](Layer& layer) {
     if (layer.level < limits.level) layer.level = limits.level, layer.raised = 0;

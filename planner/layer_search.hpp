@@ -12,6 +12,7 @@
 
 #include "planner/com_candidates.hpp"
 #include "planner/foothold_lattice.hpp"
+#include "planner/min_heap.hpp"
 #include "planner/node.hpp"
 #include "planner/step_proposals.hpp"
 
@@ -24,9 +25,18 @@ struct LatticeResolution {
   int columns = 5;       ///< of COMs across a pair of footholds
 };
 
-/// Steps that any plan needs at least to bring the COM a distance nearer to the goal. Of any three consecutive
-/// transfers one foot is planted in all, and its four COMs are within its reach: so three steps gain at most
-/// 2 reach_max.
+/// How far a stance is from the goal [m]: its COM, the farther and the nearer of its feet.
+struct ToGoal {
+  double com = 0, rear = 0, front = 0;
+};
+
+/// Steps that any plan needs at least from such a stance. A transfer ends within reach of the two feet that stood
+/// before, and of three consecutive ones all are within reach of one foot: so
+///   after 1 step the COM is no nearer than rear - reach; after 2, of the two feet one still stands: front - reach;
+///   after 3, one of these stands, or a foot that was placed within reach of the COM: com - 2 reach;
+/// and every three steps more gain 2 reach more.
+int least_steps(const ToGoal& stance, double reach_max);
+/// The same for feet anywhere within reach of the COM.
 int least_steps(double distance, double reach_max);
 
 class LayerSearch {
@@ -38,6 +48,8 @@ class LayerSearch {
   static constexpr int no_bound = std::numeric_limits<int>::max();
   struct Limits {
     int width = 8;                 ///< stances expanded per layer
+    bool sharpen = false;
+    bool far = false;
     int level = 0;                 ///< of the lattice; a dead end is searched on finer levels than this
     int below = no_bound;          ///< only plans of fewer steps are of interest
     std::uint64_t work = std::numeric_limits<std::uint64_t>::max();   ///< in all, as work() counts
@@ -70,25 +82,24 @@ class LayerSearch {
     std::int32_t old_foot;  ///< where the free leg was lifted from; -1: nowhere
     std::int32_t start;     ///< which of the starts, at layer 0
     int level = -1;         ///< that it was expanded on
+    bool far = false;
     bool swings_any_way = false;  ///< set when it is expanded
   };
   /// Steps from a stance that land at one place: first all of them, the landing not yet looked at; then, by the leg that
   /// is lifted, all COMs of a level of the pair that is left.
   struct Entry {
     double key;                  ///< [m], smaller first
-    std::uint64_t number = 0;    ///< ties go by age
+    std::uint32_t number = 0;    ///< ties go by age
     std::int32_t node;
     std::int32_t landing;
     std::int32_t lifted = -1;    ///< -1: the landing has not been looked at
     std::int32_t pair = -1;      ///< not yet asked for
     std::int32_t last = -1;      ///< the COM that was tried last
     std::int16_t first_level = 0, level = 0;  ///< of the COMs
-    bool operator<(const Entry& other) const {  // for a heap with the smallest on top
-      return key != other.key ? key > other.key : number > other.number;
-    }
+    bool sharpened = false;
   };
   struct Layer {
-    std::vector<Entry> heap;
+    MinHeap heap;                     ///< of entries
     std::vector<std::int32_t> nodes;  ///< in the order in which they were reached; some have left for earlier layers
     std::size_t raised = 0;           ///< of these, how many have been expanded on the layer's level
     int level = 0, width = 0;
@@ -106,16 +117,21 @@ class LayerSearch {
   void pop(std::size_t k, const Limits& limits);
   void reach(std::size_t k, const Entry& entry, std::int32_t com);
   void put_back(std::size_t k, const Entry& entry);
-  void expand(std::int32_t node, int level, int below);
+  Entry take_best(std::size_t k);
+  void expand(std::int32_t node, int level, const Limits& limits);
   void push_landing(std::int32_t node, std::int32_t landing, int first_level, int level);
   void push_steps(std::size_t k, const Entry& entry);
   void push(std::size_t k, Entry entry);
+  std::int32_t sharpened(const Entry& entry, std::int32_t com);
+  void push_far_landings(std::int32_t node, int level);
   void try_coms(std::size_t k, Entry entry, const Limits& limits);
+  bool is_too_long(std::size_t k, std::int32_t landing, std::int32_t lifted, std::int32_t kept) const;
   bool any_open(std::size_t end) const;
   bool is_out(const Limits& limits);
   bool step_is_legal(const Entry& entry, std::int32_t com);
   bool placement_is_legal(const SearchNode& node, std::int32_t landing);
   const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }
+  ToGoal to_goal(const Eigen::Vector2d& com, std::int32_t pair) const;
   double key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
   double key_of_pair(std::int32_t foot_a, std::int32_t foot_b) const;  ///< [m]
 
@@ -128,8 +144,11 @@ class LayerSearch {
   std::vector<Node> starts_;
   std::vector<SearchNode> nodes_;
   std::vector<Layer> layers_;
+  std::vector<Entry> waiting_entries_;
+  std::vector<std::uint32_t> free_entries_;  ///< of waiting_entries_
   std::vector<int> landings_;
   std::int32_t goal_ = -1;
+  int below_ = no_bound;
   bool swing_mattered_ = false;
   Front front_;
   unsigned asked_to_stop_ = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "gaits/rules.hpp"
@@ -84,10 +83,7 @@ LayerSearch::Limits AnytimeSearch::limits(std::uint64_t until) const {
   LayerSearch::Limits limits;
   limits.width = stages[stage_].width;
   limits.level = stages[stage_].level;
-  static const int mode = std::getenv("MODE") ? std::atoi(std::getenv("MODE")) : 0;
-  static const int mode_from = std::getenv("FROM") ? std::atoi(std::getenv("FROM")) : 0;
-  static const int mode2 = std::getenv("MODE2") ? std::atoi(std::getenv("MODE2")) : mode;
-  limits.sharpen = (options_.seed == 1 ? mode : mode2) & 1, limits.far = (mode & 2) != 0 && static_cast<int>(stage_) >= mode_from;
+  limits.sharpen = options_.sharpen;
   limits.work = until > spent_ ? until - spent_ : 0;
   limits.stop = options_.stop;
   return limits;

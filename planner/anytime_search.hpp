@@ -25,6 +25,7 @@ namespace surefoot::planner {
 struct AnytimeOptions {
   std::uint32_t seed = 1;           ///< 1 is the standard lattice, others are up to a fifth finer or coarser
   std::string objective = "steps";  ///< steps, safety or distance
+  bool sharpen = true;              ///< LayerSearch::Limits::sharpen: mostly better plans, seldom other ones
   /// Asked now and then; true ends the search with what it has.
   std::function<bool()> stop = [] { return false; };
 };

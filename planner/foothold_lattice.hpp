@@ -24,7 +24,6 @@ class FootholdLattice {
   void look_from(const Eigen::Vector2d& com, double least, double greatest) {
     terrain_->stretches_within(com, least, greatest, stretches_);
   }
-  const std::vector<terrain::Stretch>& stretches() const { return stretches_; }
   /// Numbers of the footholds of a level there.
   void list(int level, std::vector<int>& numbers);
 

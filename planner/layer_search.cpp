@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace surefoot::planner {
 
@@ -12,7 +11,7 @@ namespace {
 
 /// Weight of the feet against the COM in the order of a layer: of two stances with the same COM the one whose feet are
 /// ahead has come farther.
-static const double feet_share = std::getenv("FS") ? std::atof(std::getenv("FS")) : 0.3;
+constexpr double feet_share = 0.3;
 constexpr unsigned stop_interval = 64;  ///< looks at the limits per question whether to stop, which reads a clock
 constexpr int width_factor = 4;  ///< by which the layers before a dead end are widened each time it is met
 
@@ -157,8 +156,7 @@ void LayerSearch::push_steps(std::size_t k, const Entry& landing) {
 }
 
 /// Pushes what levels up to this one add to what has been pushed before.
-void LayerSearch::expand(std::int32_t number, int level, const Limits& limits) {
-  const int below = limits.below;
+void LayerSearch::expand(std::int32_t number, int level, int below) {
   const SearchNode node = nodes_[number];
   if (node.level >= level) return;
   if (node.layer + least_steps(to_goal(coms_.com(node.com).at, node.pair), robot_.reach_max) >= below) return;
@@ -167,7 +165,6 @@ void LayerSearch::expand(std::int32_t number, int level, const Limits& limits) {
   if (layers_.size() < static_cast<std::size_t>(node.layer) + 2) layers_.resize(static_cast<std::size_t>(node.layer) + 2);
   const auto pair = coms_[node.pair];
   lattice_.look_from(coms_.com(node.com).at, robot_.reach_min, robot_.reach_max);
-  if (limits.far && !node.far) push_far_landings(number, level), nodes_[number].far = true;
   for (int of_landing = 0; of_landing <= level; ++of_landing) {
     lattice_.list(of_landing, landings_);
     for (const int landing : landings_) {
@@ -179,17 +176,29 @@ void LayerSearch::expand(std::int32_t number, int level, const Limits& limits) {
   }
 }
 
+/// All three feet, wherever the COM is between the two stances.
+bool LayerSearch::feet_reach(const Entry& entry, const Vector2d& to) {
+  ++scanned_;
+  const SearchNode& node = nodes_[entry.node];
+  const auto& pair = coms_[node.pair];
+  const Vector2d& from = coms_.com(node.com).at;
+  // The foot that is lifted first: it is the farthest back.
+  for (const std::int32_t number : {entry.lifted, pair.first_foot, pair.second_foot, entry.landing})
+    if (!gaits::within_reach(robot_, foot(number).position, from, to)) return false;
+  return true;
+}
+
+/// Apart from the reach of the feet.
 bool LayerSearch::step_is_legal(const Entry& entry, std::int32_t number) {
   ++checked_;
   const SearchNode& node = nodes_[entry.node];
   const Vector2d &from = coms_.com(node.com).at, &to = coms_.com(number).at;
+  if (!scene_->terrain.leg_is_free(to, foot(entry.lifted))) return false;
+  if (scene_->terrain.distance(from, to, robot_.clearance) < robot_.clearance) return false;
   gaits::Feet three;
   three[0] = foot(coms_[node.pair].first_foot);
   three[1] = foot(coms_[node.pair].second_foot);
   three[2] = foot(entry.landing);
-  if (!gaits::within_reach(robot_, three, from, to)) return false;
-  if (!scene_->terrain.leg_is_free(to, foot(entry.lifted))) return false;
-  if (scene_->terrain.distance(from, to, robot_.clearance) < robot_.clearance) return false;
   return gaits::is_stable(*scene_, gaits::oracle_of(*scene_, three, box_), from, to);
 }
 
@@ -225,51 +234,32 @@ std::int32_t LayerSearch::sharpened(const Entry& entry, std::int32_t number) {
   for (int i = 0; i < 4; ++i) {
     const double t = 0.5 * (low + high);
     const std::int32_t tried = coms_.try_one(entry.pair, begin + t * way);
-    if (tried >= 0 && step_is_legal(entry, tried)) low = t, best = tried; else high = t;
+    if (tried >= 0 && feet_reach(entry, coms_.com(tried).at) && step_is_legal(entry, tried)) low = t, best = tried; else high = t;
   }
   return best;
 }
 
-/// The ends of what the stance reaches, exactly.
-void LayerSearch::push_far_landings(std::int32_t number, int level) {
-  for (const terrain::Stretch& stretch : lattice_.stretches()) {
-    const terrain::Segment& segment = *stretch.segment;
-    const Vector2d a = segment.a + (stretch.s_begin - segment.s_begin) * segment.tangent, b = segment.a + (stretch.s_end - segment.s_begin) * segment.tangent;
-    const bool end = scene_->goal.distance(b) < scene_->goal.distance(a);
-    const double margin = 0.02 * robot_.reach_max;
-    if (end ? stretch.s_end > segment.s_begin + segment.length - margin : stretch.s_begin < segment.s_begin + margin) continue;
-    const auto foothold = scene_->terrain.foothold_at(segment.chain, end ? stretch.s_end : stretch.s_begin);
-    if (!foothold) continue;
-    push_landing(number, lattice_.add(*foothold), 0, level);
-  }
-}
-
-/// Tries the next COM of a step that comes into question.
+/// Tries the COMs of a step in their order, until one leads to a stance or is less good than another entry may be.
 void LayerSearch::try_coms(std::size_t k, Entry entry, const Limits& limits) {
   const int layer = static_cast<int>(k);
-  const Vector2d& lifted = foot(entry.lifted).position;
-  const Vector2d from = coms_.com(nodes_[entry.node].com).at;
+  const ToGoal feet{0, coms_[entry.pair].rear, coms_[entry.pair].front};
   for (std::int32_t number; (number = coms_.next(entry.pair, entry.last)) >= 0; entry.last = number) {
-    ++scanned_;
     const auto com = coms_.com(number);
-    if (com.verdict == ComCandidates::Verdict::breaks || (com.node >= 0 && nodes_[com.node].layer <= layer)) continue;
-    if (layer + least_steps({com.to_goal, coms_[entry.pair].rear, coms_[entry.pair].front}, robot_.reach_max) >= limits.below) return;  // so are those behind it
-    if (!gaits::within_reach(robot_, lifted, from, com.at)) continue;
+    if (com.verdict == ComCandidates::Verdict::breaks) continue;
+    if (com.node >= 0 && nodes_[com.node].layer <= layer) continue;
+    if (layer + least_steps({com.to_goal, feet.rear, feet.front}, robot_.reach_max) >= limits.below)
+      return;  // so are those behind it
+    if (!feet_reach(entry, com.at)) continue;
     if (const double true_key = key(com.at, entry.pair); true_key > entry.key) {
       entry.key = true_key;
       return put_back(k, entry);
     }
-    if (!coms_.holds(entry.pair, number)) continue;
-    if (limits.sharpen && !entry.sharpened && step_is_legal(entry, number)) {
-      entry.sharpened = true;
-      put_back(k, entry);
-      reach(k, entry, sharpened(entry, number));
-      return;
-    }
-    entry.last = number;
+    if (!coms_.holds(entry.pair, number) || !step_is_legal(entry, number)) continue;
+    const bool sharpen = limits.sharpen && !entry.sharpened;
+    if (!sharpen) entry.last = number;
+    entry.sharpened = true;
     put_back(k, entry);
-    if (step_is_legal(entry, number)) reach(k, entry, number);
-    return;
+    return reach(k, entry, sharpen ? sharpened(entry, number) : number);
   }
 }
 
@@ -291,7 +281,7 @@ bool LayerSearch::run_layer(std::size_t k, const Limits& limits) {
       if (is_out(limits)) return;
       if (layer->raised >= static_cast<std::size_t>(layer->width)) return;
       const std::int32_t node = layer->nodes[layer->raised++];
-      if (nodes_[node].layer == static_cast<std::int32_t>(k)) expand(node, layer->level, limits);
+      if (nodes_[node].layer == static_cast<std::int32_t>(k)) expand(node, layer->level, limits.below);
     }
   };
   expand_waiting();

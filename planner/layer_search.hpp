@@ -48,8 +48,8 @@ class LayerSearch {
   static constexpr int no_bound = std::numeric_limits<int>::max();
   struct Limits {
     int width = 8;                 ///< stances expanded per layer
+    /// Of each step that is legal, the COM is first moved towards the goal as far as halving finds it legal.
     bool sharpen = false;
-    bool far = false;
     int level = 0;                 ///< of the lattice; a dead end is searched on finer levels than this
     int below = no_bound;          ///< only plans of fewer steps are of interest
     std::uint64_t work = std::numeric_limits<std::uint64_t>::max();   ///< in all, as work() counts
@@ -82,7 +82,6 @@ class LayerSearch {
     std::int32_t old_foot;  ///< where the free leg was lifted from; -1: nowhere
     std::int32_t start;     ///< which of the starts, at layer 0
     int level = -1;         ///< that it was expanded on
-    bool far = false;
     bool swings_any_way = false;  ///< set when it is expanded
   };
   /// Steps from a stance that land at one place: first all of them, the landing not yet looked at; then, by the leg that
@@ -96,7 +95,7 @@ class LayerSearch {
     std::int32_t pair = -1;      ///< not yet asked for
     std::int32_t last = -1;      ///< the COM that was tried last
     std::int16_t first_level = 0, level = 0;  ///< of the COMs
-    bool sharpened = false;
+    bool sharpened = false;      ///< its first legal COM has been
   };
   struct Layer {
     MinHeap heap;                     ///< of entries
@@ -118,16 +117,16 @@ class LayerSearch {
   void reach(std::size_t k, const Entry& entry, std::int32_t com);
   void put_back(std::size_t k, const Entry& entry);
   Entry take_best(std::size_t k);
-  void expand(std::int32_t node, int level, const Limits& limits);
+  void expand(std::int32_t node, int level, int below);
   void push_landing(std::int32_t node, std::int32_t landing, int first_level, int level);
   void push_steps(std::size_t k, const Entry& entry);
   void push(std::size_t k, Entry entry);
   std::int32_t sharpened(const Entry& entry, std::int32_t com);
-  void push_far_landings(std::int32_t node, int level);
   void try_coms(std::size_t k, Entry entry, const Limits& limits);
   bool is_too_long(std::size_t k, std::int32_t landing, std::int32_t lifted, std::int32_t kept) const;
   bool any_open(std::size_t end) const;
   bool is_out(const Limits& limits);
+  bool feet_reach(const Entry& entry, const Eigen::Vector2d& to);
   bool step_is_legal(const Entry& entry, std::int32_t com);
   bool placement_is_legal(const SearchNode& node, std::int32_t landing);
   const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }

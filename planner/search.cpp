@@ -148,7 +148,8 @@ class Search {
 
   std::vector<Node> search_layers(const std::vector<Node>& starts) {
     std::atomic<bool> proven = false;
-    const AnytimeOptions anytime{options_.seed, options_.objective, [&] { return proven || stopped(); }};
+    AnytimeOptions anytime{.seed = options_.seed, .objective = options_.objective};
+    anytime.stop = [&] { return proven || stopped(); };
     AnytimeSearch search(proposals_, starts, anytime);
     if (!find_first(search, proven)) {
       if (proven) return {};
@@ -180,7 +181,7 @@ class Search {
 
   std::vector<Node> search_elsewhere(const std::vector<Node>& starts, std::uint64_t work) const {
     StepProposals proposals(scene_);
-    const AnytimeOptions anytime{turn_seed(options_.seed, 1), options_.objective, [this] { return stopped(); }};
+    const AnytimeOptions anytime{turn_seed(options_.seed, 1), options_.objective, false, [this] { return stopped(); }};
     AnytimeSearch search(proposals, starts, anytime);
     if (search.find(stall_before_proof)) search.improve(work);
     return search.path();

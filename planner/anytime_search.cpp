@@ -16,7 +16,7 @@ namespace {
 struct Stage {
   int width, level;
 };
-constexpr Stage stages[] = {{8, 0},   {32, 0},   {128, 1},  {512, 1},  {256, 2},  {1024, 2},
+constexpr Stage stages[] = {{4, 0}, {8, 0},   {32, 0},   {128, 1},  {512, 1},  {256, 2},  {1024, 2},
                             {512, 3}, {4096, 2}, {2048, 3}, {8192, 3}, {4096, 4}, {1 << 28, 4}};
 
 constexpr double first_raise = 1.5;      ///< of the disturbances beyond what the plan bears, while that succeeds

@@ -93,7 +93,8 @@ std::int32_t ComCandidates::make_shape(const Pair& pair) {
   Shape shape;
   shape.whole = gaits::oracle_of(*scene_, feet, box_).equilibrium_polygon(window);
   if (shape.whole.empty()) return -1;
-  shape.in_goal = clip_to_goal(shape.whole, scene_->goal);
+  if (scene_->goal.distance(0.5 * (feet[0]->position + feet[1]->position)) <= 2 * robot_.reach_max)
+    shape.in_goal = clip_to_goal(shape.whole, scene_->goal);
   list_columns(pair.level, shape.whole, false, shape.columns);
   if (!shape.in_goal.empty()) list_columns(pair.level, shape.in_goal, true, shape.columns);
   std::stable_sort(shape.columns.begin(), shape.columns.end(),

@@ -12,6 +12,7 @@ namespace {
 /// Weight of the feet against the COM in the order of a layer: of two stances with the same COM the one whose feet are
 /// ahead has come farther.
 constexpr double feet_share = 0.3;
+constexpr int halvings = 3;           ///< between a COM that a step may end at and one that it may not
 constexpr unsigned stop_interval = 64;  ///< looks at the limits per question whether to stop, which reads a clock
 constexpr int width_factor = 4;  ///< by which the layers before a dead end are widened each time it is met
 
@@ -104,9 +105,12 @@ void LayerSearch::push(std::size_t k, Entry entry) {
   put_back(k, entry);
 }
 
-/// Until a pair is looked at, its COM may be anywhere within reach: say in the middle of its feet.
-double LayerSearch::key_of_pair(std::int32_t foot_a, std::int32_t foot_b) const {
-  return scene_->goal.distance(0.5 * (foot(foot_a).position + foot(foot_b).position));
+/// Until a pair is looked at, its COM may be anywhere within reach: say in the middle of its feet, or as near to there
+/// as the reach of the foot that is lifted allows.
+double LayerSearch::key_of_step(std::int32_t landing, std::int32_t lifted, std::int32_t kept) const {
+  const double middle = scene_->goal.distance(0.5 * (foot(landing).position + foot(kept).position));
+  const double com = std::max(middle, scene_->goal.distance(foot(lifted).position) - robot_.reach_max);
+  return (1 - feet_share) * com + feet_share * middle;
 }
 
 /// After a step onto a foothold that lifts another and keeps a third, so many steps at least make a plan: the COM is
@@ -128,7 +132,8 @@ void LayerSearch::push_landing(std::int32_t number, std::int32_t landing, int fi
       is_too_long(layer, landing, pair.second_foot, pair.first_foot))
     return;
   Entry entry{};
-  entry.key = std::min(key_of_pair(landing, pair.first_foot), key_of_pair(landing, pair.second_foot));
+  entry.key = std::min(key_of_step(landing, pair.first_foot, pair.second_foot),
+                       key_of_step(landing, pair.second_foot, pair.first_foot));
   entry.node = number, entry.landing = landing, entry.lifted = -1, entry.pair = -1, entry.last = -1;
   entry.first_level = static_cast<std::int16_t>(first_level), entry.level = static_cast<std::int16_t>(level);
   push(layer, entry);
@@ -144,13 +149,13 @@ void LayerSearch::push_steps(std::size_t k, const Entry& landing) {
     for (const int i : {0, 1}) {
       if (is_too_long(k, landing.landing, feet[i], feet[1 - i])) continue;
       entry.lifted = feet[i];
-      entry.key = key_of_pair(landing.landing, feet[1 - i]);
+      entry.key = key_of_step(landing.landing, feet[i], feet[1 - i]);
       push(k, entry);
     }
     if (node.level == 0 || is_too_long(k, feet[0], landing.landing, feet[1])) continue;
     // The leg just placed is lifted again: the COM moves, the support stays. Seldom of use.
     entry.lifted = landing.landing;
-    entry.key = key_of_pair(feet[0], feet[1]);
+    entry.key = key_of_step(feet[0], landing.landing, feet[1]);
     push(k, entry);
   }
 }
@@ -231,7 +236,7 @@ std::int32_t LayerSearch::sharpened(const Entry& entry, std::int32_t number) {
   const Vector2d begin = coms_.com(number).at, way = coms_.com(ahead).at - begin;
   double low = 0, high = 1;
   std::int32_t best = number;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < halvings; ++i) {
     const double t = 0.5 * (low + high);
     const std::int32_t tried = coms_.try_one(entry.pair, begin + t * way);
     if (tried >= 0 && feet_reach(entry, coms_.com(tried).at) && step_is_legal(entry, tried)) low = t, best = tried; else high = t;
@@ -247,7 +252,8 @@ void LayerSearch::try_coms(std::size_t k, Entry entry, const Limits& limits) {
     const auto com = coms_.com(number);
     if (com.verdict == ComCandidates::Verdict::breaks) continue;
     if (com.node >= 0 && nodes_[com.node].layer <= layer) continue;
-    if (layer + least_steps({com.to_goal, feet.rear, feet.front}, robot_.reach_max) >= limits.below)
+    if (limits.below != no_bound &&
+        layer + least_steps({com.to_goal, feet.rear, feet.front}, robot_.reach_max) >= limits.below)
       return;  // so are those behind it
     if (!feet_reach(entry, com.at)) continue;
     if (const double true_key = key(com.at, entry.pair); true_key > entry.key) {

@@ -132,7 +132,7 @@ class LayerSearch {
   const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }
   ToGoal to_goal(const Eigen::Vector2d& com, std::int32_t pair) const;
   double key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
-  double key_of_pair(std::int32_t foot_a, std::int32_t foot_b) const;  ///< [m]
+  double key_of_step(std::int32_t landing, std::int32_t lifted, std::int32_t kept) const;  ///< [m]
 
   StepProposals* proposals_;
   const gaits::Scene* scene_;

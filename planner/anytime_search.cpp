@@ -1,5 +1,7 @@
 #include "planner/anytime_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -183,6 +185,13 @@ bool AnytimeSearch::improve_safety(std::uint64_t until) {
   scale_settled_ = true;
   begin(std::clamp(factor_ * (1 - 1e-9), 1.0, greatest_scale));
   return false;
+}
+
+std::string AnytimeSearch::cost() const {
+  std::string text = fmt::format("{} steps", path_.size() - 1);
+  if (options_.objective == "safety") text += fmt::format(", least safety factor {:.3g}", factor_);
+  if (options_.objective == "distance") text += fmt::format(", {:.4g} m", way_of_com(path_));
+  return text;
 }
 
 Eigen::Vector2d AnytimeSearch::nearest_com() const { return layers_->best(); }

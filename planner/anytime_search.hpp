@@ -47,8 +47,11 @@ class AnytimeSearch {
 
   const std::vector<Node>& path() const { return path_; }
   int improvements() const { return improvements_; }  ///< how many plans were better than all before
-  /// How near to the goal the search came, while there is no plan.
+  /// How near to the goal the search came, and what stood in its way, while there is no plan.
   Eigen::Vector2d nearest_com() const;
+  const Refusals& refusals() const { return layers_->refusals(); }
+  /// The plan's cost: steps, with the least safety factor or the COM's way if that is the objective. In words.
+  std::string cost() const;
   std::uint64_t work() const { return spent_ + (layers_ ? layers_->work() : 0); }
   gaits::Resolution resolution() const;
 

@@ -60,6 +60,7 @@ int ComCandidates::pair(int foot, int other, int level) {
   if (!fresh) return at->second;
   pairs_.push_back(made(low, high, level));
   pairs_.back().shape = make_shape(pairs_.back());
+  pairs_.back().balances = pairs_.back().shape >= 0;
   return at->second;
 }
 
@@ -151,10 +152,12 @@ bool ComCandidates::holds(int number, std::int32_t of_com) {
   if (com.verdict != Verdict::open) return com.verdict == Verdict::holds;
   ++asked_;
   const gaits::Feet feet = feet_of(pairs_[static_cast<std::size_t>(number)]);
-  const bool holds = scene_->terrain.distance(com.at, robot_.clearance) >= robot_.clearance &&
-                     gaits::is_stable(*scene_, gaits::oracle_of(*scene_, feet, box_), com.at);
-  com.verdict = holds ? Verdict::holds : Verdict::breaks;
-  return holds;
+  if (scene_->terrain.distance(com.at, robot_.clearance) < robot_.clearance)
+    com.verdict = Verdict::too_near;
+  else
+    com.verdict = gaits::is_stable(*scene_, gaits::oracle_of(*scene_, feet, box_), com.at) ? Verdict::holds
+                                                                                          : Verdict::unstable;
+  return com.verdict == Verdict::holds;
 }
 
 std::int32_t ComCandidates::try_one(int number, const Vector2d& at) {

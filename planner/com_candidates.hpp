@@ -18,7 +18,7 @@ namespace surefoot::planner {
 
 class ComCandidates {
  public:
-  enum class Verdict : std::int8_t { open, holds, breaks };
+  enum class Verdict : std::int8_t { open, holds, too_near, unstable };  ///< too near the terrain
   struct Com {
     Eigen::Vector2d at;                ///< [m]
     double to_goal = 0;                ///< [m]
@@ -31,6 +31,7 @@ class ComCandidates {
     int level = 0;
     double rear = 0, front = 0;           ///< the farther and the nearer foot from the goal [m]
     std::int32_t first = -1, last = -1;   ///< of its COMs made so far
+    bool balances = false;                ///< R_SS(W) is not empty within reach
     std::int32_t shape = -1;              ///< what more are made from; -1: there are no more
   };
 
@@ -46,6 +47,7 @@ class ComCandidates {
   std::int32_t next(int pair, std::int32_t com);
   /// Whether a COM of the pair satisfies the rules of a stance. Asks them once.
   bool holds(int pair, std::int32_t com);
+  bool was_refused(std::int32_t com) const { return this->com(com).verdict > Verdict::holds; }
 
   /// Takes up another COM of a pair if it holds, apart from the pair's list. -1 if it does not.
   std::int32_t try_one(int pair, const Eigen::Vector2d& at);

@@ -9,31 +9,10 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Weight of the feet against the COM in the order of a layer: of two stances with the same COM the one whose feet are
-/// ahead has come farther.
-constexpr double feet_share = 0.3;
-constexpr int halvings = 3;           ///< between a COM that a step may end at and one that it may not
 constexpr unsigned stop_interval = 64;  ///< looks at the limits per question whether to stop, which reads a clock
 constexpr int width_factor = 4;  ///< by which the layers before a dead end are widened each time it is met
 
-
 }  // namespace
-
-int least_steps(const ToGoal& stance, double reach_max) {
-  if (!(stance.com > 0)) return 0;
-  constexpr double most = 1e8;
-  const double turn = 2 * reach_max;
-  /// Rounds of three steps until `gain` times the reach brings a distance to nothing.
-  const auto rounds = [&](double distance, double first) {
-    return std::clamp(std::ceil((distance - first * reach_max) / turn * (1 - 1e-9) - 1e-9), 0.0, most);
-  };
-  const double com = 3 * rounds(stance.com, 0), rear = 3 * rounds(stance.rear, 1) + 1, front = 3 * rounds(stance.front, 1) + 2;
-  return static_cast<int>(std::min({com, rear, front}));
-}
-
-int least_steps(double distance, double reach_max) {
-  return least_steps({distance, distance - reach_max, distance - reach_max}, reach_max);
-}
 
 LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& starts, const LatticeResolution& resolution,
                          const stability::DisturbanceBox& box)
@@ -43,7 +22,8 @@ LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& star
       box_(box),
       lattice_(scene_->terrain, resolution.spacing * robot_.reach_max, resolution.inset * robot_.reach_max),
       coms_(*scene_, lattice_, resolution.columns, box),
-      starts_(starts) {
+      starts_(starts),
+      refusals_(robot_.reach_max) {
   layers_.resize(1);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Node& start = starts[i];
@@ -55,19 +35,9 @@ LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& star
     nodes_.push_back({static_cast<std::int32_t>(coms_.pairs()) - 1, com, -1, 0, number[start.free_leg],
                       static_cast<std::int32_t>(i)});
     coms_.com(com).node = static_cast<std::int32_t>(nodes_.size()) - 1;
+    if (coms_.com(com).to_goal < nearest_.to_goal) nearest_ = coms_.com(com);
     layers_[0].nodes.push_back(coms_.com(com).node);
   }
-}
-
-ToGoal LayerSearch::to_goal(const Vector2d& com, std::int32_t number) const {
-  const auto& pair = coms_[number];
-  return {scene_->goal.distance(com), pair.rear, pair.front};
-}
-
-double LayerSearch::key(const Vector2d& com, std::int32_t pair) const {
-  const auto& feet = coms_[pair];
-  const Vector2d middle = 0.5 * (foot(feet.first_foot).position + foot(feet.second_foot).position);
-  return scene_->goal.distance((1 - feet_share) * com + feet_share * middle);
 }
 
 void LayerSearch::put_back(std::size_t k, const Entry& entry) {
@@ -90,37 +60,9 @@ LayerSearch::Entry LayerSearch::take_best(std::size_t k) {
   return waiting_entries_[at];
 }
 
-bool LayerSearch::placement_is_legal(const SearchNode& node, std::int32_t landing) {
-  ++checked_;
-  const Vector2d& com = coms_.com(node.com).at;
-  if (!scene_->terrain.leg_is_free(com, foot(landing))) return false;
-  if (node.old_foot < 0 || node.swings_any_way) return true;
-  if (gaits::swing_is_free(*scene_, com, foot(node.old_foot).position, foot(landing).position)) return true;
-  swing_mattered_ = true;
-  return false;
-}
-
 void LayerSearch::push(std::size_t k, Entry entry) {
   entry.number = static_cast<std::uint32_t>(entries_++);
   put_back(k, entry);
-}
-
-/// Until a pair is looked at, its COM may be anywhere within reach: say in the middle of its feet, or as near to there
-/// as the reach of the foot that is lifted allows.
-double LayerSearch::key_of_step(std::int32_t landing, std::int32_t lifted, std::int32_t kept) const {
-  const double middle = scene_->goal.distance(0.5 * (foot(landing).position + foot(kept).position));
-  const double com = std::max(middle, scene_->goal.distance(foot(lifted).position) - robot_.reach_max);
-  return (1 - feet_share) * com + feet_share * middle;
-}
-
-/// After a step onto a foothold that lifts another and keeps a third, so many steps at least make a plan: the COM is
-/// within reach of all three.
-bool LayerSearch::is_too_long(std::size_t k, std::int32_t landing, std::int32_t lifted, std::int32_t kept) const {
-  if (below_ == no_bound) return false;
-  const double a = scene_->goal.distance(foot(landing).position), b = scene_->goal.distance(foot(kept).position);
-  const double farthest = std::max({a, b, scene_->goal.distance(foot(lifted).position)});
-  const ToGoal after{farthest - robot_.reach_max, std::max(a, b), std::min(a, b)};
-  return static_cast<int>(k) + least_steps(after, robot_.reach_max) >= below_;
 }
 
 /// Steps that land at one place, for COMs of levels from first_level on.
@@ -181,32 +123,6 @@ void LayerSearch::expand(std::int32_t number, int level, int below) {
   }
 }
 
-/// All three feet, wherever the COM is between the two stances.
-bool LayerSearch::feet_reach(const Entry& entry, const Vector2d& to) {
-  ++scanned_;
-  const SearchNode& node = nodes_[entry.node];
-  const auto& pair = coms_[node.pair];
-  const Vector2d& from = coms_.com(node.com).at;
-  // The foot that is lifted first: it is the farthest back.
-  for (const std::int32_t number : {entry.lifted, pair.first_foot, pair.second_foot, entry.landing})
-    if (!gaits::within_reach(robot_, foot(number).position, from, to)) return false;
-  return true;
-}
-
-/// Apart from the reach of the feet.
-bool LayerSearch::step_is_legal(const Entry& entry, std::int32_t number) {
-  ++checked_;
-  const SearchNode& node = nodes_[entry.node];
-  const Vector2d &from = coms_.com(node.com).at, &to = coms_.com(number).at;
-  if (!scene_->terrain.leg_is_free(to, foot(entry.lifted))) return false;
-  if (scene_->terrain.distance(from, to, robot_.clearance) < robot_.clearance) return false;
-  gaits::Feet three;
-  three[0] = foot(coms_[node.pair].first_foot);
-  three[1] = foot(coms_[node.pair].second_foot);
-  three[2] = foot(entry.landing);
-  return gaits::is_stable(*scene_, gaits::oracle_of(*scene_, three, box_), from, to);
-}
-
 /// Takes the best entry of a layer: gives it up, finds it to be less good than it seemed and puts it back, or checks its
 /// landing or a step; if that is legal, it leads to a new stance of the layer.
 void LayerSearch::pop(std::size_t k, const Limits& limits) {
@@ -214,7 +130,10 @@ void LayerSearch::pop(std::size_t k, const Limits& limits) {
   const SearchNode node = nodes_[entry.node];
   if (node.layer + 1 != static_cast<int>(k)) return;  // since then it was reached sooner: its steps are there
   if (entry.lifted < 0) {
-    if (placement_is_legal(node, entry.landing)) push_steps(k, entry);
+    if (const auto rule = broken_placement_rule(node, entry.landing))
+      refuse(*rule, node);
+    else
+      push_steps(k, entry);
     return;
   }
   if (entry.pair < 0) {
@@ -226,49 +145,6 @@ void LayerSearch::pop(std::size_t k, const Limits& limits) {
   try_coms(k, entry, limits);
 }
 
-/// A COM between a legal one and the last before it, nearer to the goal, that is not: as near as halving finds.
-std::int32_t LayerSearch::sharpened(const Entry& entry, std::int32_t number) {
-  std::int32_t ahead = -1;
-  double to_goal = -1;
-  for (std::int32_t i = coms_.next(entry.pair, -1); i >= 0 && i != number; i = coms_.next(entry.pair, i))
-    if (coms_.com(i).to_goal > to_goal && coms_.com(i).to_goal < coms_.com(number).to_goal) ahead = i, to_goal = coms_.com(i).to_goal;
-  if (ahead < 0) return number;
-  const Vector2d begin = coms_.com(number).at, way = coms_.com(ahead).at - begin;
-  double low = 0, high = 1;
-  std::int32_t best = number;
-  for (int i = 0; i < halvings; ++i) {
-    const double t = 0.5 * (low + high);
-    const std::int32_t tried = coms_.try_one(entry.pair, begin + t * way);
-    if (tried >= 0 && feet_reach(entry, coms_.com(tried).at) && step_is_legal(entry, tried)) low = t, best = tried; else high = t;
-  }
-  return best;
-}
-
-/// Tries the COMs of a step in their order, until one leads to a stance or is less good than another entry may be.
-void LayerSearch::try_coms(std::size_t k, Entry entry, const Limits& limits) {
-  const int layer = static_cast<int>(k);
-  const ToGoal feet{0, coms_[entry.pair].rear, coms_[entry.pair].front};
-  for (std::int32_t number; (number = coms_.next(entry.pair, entry.last)) >= 0; entry.last = number) {
-    const auto com = coms_.com(number);
-    if (com.verdict == ComCandidates::Verdict::breaks) continue;
-    if (com.node >= 0 && nodes_[com.node].layer <= layer) continue;
-    if (limits.below != no_bound &&
-        layer + least_steps({com.to_goal, feet.rear, feet.front}, robot_.reach_max) >= limits.below)
-      return;  // so are those behind it
-    if (!feet_reach(entry, com.at)) continue;
-    if (const double true_key = key(com.at, entry.pair); true_key > entry.key) {
-      entry.key = true_key;
-      return put_back(k, entry);
-    }
-    if (!coms_.holds(entry.pair, number) || !step_is_legal(entry, number)) continue;
-    const bool sharpen = limits.sharpen && !entry.sharpened;
-    if (!sharpen) entry.last = number;
-    entry.sharpened = true;
-    put_back(k, entry);
-    return reach(k, entry, sharpen ? sharpened(entry, number) : number);
-  }
-}
-
 void LayerSearch::reach(std::size_t k, const Entry& entry, std::int32_t number) {
   auto& com = coms_.com(number);
   if (com.node < 0) {
@@ -277,6 +153,7 @@ void LayerSearch::reach(std::size_t k, const Entry& entry, std::int32_t number) 
   }
   nodes_[com.node] = {entry.pair, number, entry.node, static_cast<std::int32_t>(k), entry.lifted, -1};
   layers_[k].nodes.push_back(com.node);
+  if (com.to_goal < nearest_.to_goal) nearest_ = com;
   if (const double at = key(com.at, entry.pair); at < front_.key) front_ = {at, k, work()};
   if (scene_->goal.contains(com.at)) goal_ = com.node;
 }
@@ -362,13 +239,6 @@ LayerSearch::End LayerSearch::run(const Limits& limits) {
     }
     if (k == 0 && level + 1 == FootholdLattice::levels && !any_open(end())) return End::exhausted;
   }
-}
-
-Vector2d LayerSearch::best() const {
-  const auto nearer = [this](const SearchNode& a, const SearchNode& b) {
-    return coms_.com(a.com).to_goal < coms_.com(b.com).to_goal;
-  };
-  return coms_.com(std::min_element(nodes_.begin(), nodes_.end(), nearer)->com).at;
 }
 
 std::vector<Node> LayerSearch::path() const {

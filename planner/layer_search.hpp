@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "planner/com_candidates.hpp"
 #include "planner/foothold_lattice.hpp"
 #include "planner/min_heap.hpp"
 #include "planner/node.hpp"
+#include "planner/refusals.hpp"
 #include "planner/step_proposals.hpp"
 
 namespace surefoot::planner {
@@ -63,7 +65,9 @@ class LayerSearch {
   std::vector<Node> path() const;
 
   /// The COM nearest to the goal among all stances reached.
-  Eigen::Vector2d best() const;
+  Eigen::Vector2d best() const { return nearest_.at; }
+  /// Landings, and steps with all their COMs, that were refused while there was no plan.
+  const Refusals& refusals() const { return refusals_; }
   /// Landings and steps checked, COMs asked about, eighths for steps noted and COMs passed over: about a microsecond each. The same on every machine.
   std::uint64_t work() const { return checked_ + coms_.asked() + (entries_ + scanned_) / 8; }
   std::size_t stances() const { return nodes_.size(); }
@@ -96,6 +100,15 @@ class LayerSearch {
     std::int32_t last = -1;      ///< the COM that was tried last
     std::int16_t first_level = 0, level = 0;  ///< of the COMs
     bool sharpened = false;      ///< its first legal COM has been
+    bool has_led_on = false;     ///< to some stance
+    bool refused = false;        ///< some COM that all feet reach was
+    gaits::Rule refused_by = gaits::Rule::reach;  ///< if so: the rule, of those asked last
+
+    /// The rules are asked in the order of the enumeration, but for visibility: the later, the nearer to legal.
+    void note(gaits::Rule rule) {
+      if (!refused || rule > refused_by) refused_by = rule;
+      refused = true;
+    }
   };
   struct Layer {
     MinHeap heap;                     ///< of entries
@@ -127,8 +140,10 @@ class LayerSearch {
   bool any_open(std::size_t end) const;
   bool is_out(const Limits& limits);
   bool feet_reach(const Entry& entry, const Eigen::Vector2d& to);
-  bool step_is_legal(const Entry& entry, std::int32_t com);
-  bool placement_is_legal(const SearchNode& node, std::int32_t landing);
+  std::optional<gaits::Rule> broken_rule(const Entry& entry, std::int32_t com);
+  std::optional<gaits::Rule> broken_step_rule(const Entry& entry, std::int32_t com);
+  std::optional<gaits::Rule> broken_placement_rule(const SearchNode& node, std::int32_t landing);
+  void refuse(gaits::Rule rule, const SearchNode& node);
   const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }
   ToGoal to_goal(const Eigen::Vector2d& com, std::int32_t pair) const;
   double key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
@@ -150,6 +165,8 @@ class LayerSearch {
   int below_ = no_bound;
   bool swing_mattered_ = false;
   Front front_;
+  ComCandidates::Com nearest_{Eigen::Vector2d::Zero(), std::numeric_limits<double>::infinity()};
+  Refusals refusals_;
   unsigned asked_to_stop_ = 0;
   bool stopped_ = false;
   std::uint64_t waiting_ = 0;  ///< entries in all heaps

@@ -136,9 +136,7 @@ class Search {
   /// Looks for a first plan and, once that stalls, for a proof that there is none beside it. Only one of the two can
   /// exist, so it does not matter which thread is faster.
   bool find_first(AnytimeSearch& search, std::atomic<bool>& proven) {
-    options_.progress(fmt::format("searching (at most {} s) ...", options_.time_limit));
     if (search.find(stall_before_proof)) return true;
-    options_.progress("searching, and looking for a reason why there is no plan ...");
     std::atomic<bool> found = false;
     auto proof = beside([&] { return proven = is_impossible([&found] { return found.load(); }); });
     found = search.find(greatest_stall);
@@ -148,13 +146,18 @@ class Search {
 
   std::vector<Node> search_layers(const std::vector<Node>& starts) {
     std::atomic<bool> proven = false;
+    const AnytimeSearch* running = nullptr;
     AnytimeOptions anytime{.seed = options_.seed, .objective = options_.objective};
-    anytime.stop = [&] { return proven || stopped(); };
+    anytime.stop = [&] {
+      if (running != nullptr) tell(*running, starts);
+      return proven || stopped();
+    };
     AnytimeSearch search(proposals_, starts, anytime);
+    running = &search;
     if (!find_first(search, proven)) {
       if (proven) return {};
       std::vector<Node> path = take_turns(starts);
-      if (path.empty()) plan_.reason += came_to(search.nearest_com());
+      if (path.empty()) plan_.reason += came_to(search);
       return path;
     }
     plan_.planner = "Layers";
@@ -174,8 +177,8 @@ class Search {
     if (work == 0) return;
     auto other = beside([&] { return search_elsewhere(starts, work); });
     const std::uint64_t slice = std::max<std::uint64_t>(work / 20, 1), until = search.work() + work;
-    while (!stopped() && search.work() < until && search.improve(slice))
-      options_.progress(fmt::format("{} steps, looking for a better plan ...", search.path().size() - 1));
+    while (!stopped() && search.work() < until && search.improve(slice)) {
+    }
     search.offer(other.get());
   }
 
@@ -197,9 +200,23 @@ class Search {
     }
   }
 
-  std::string came_to(const Eigen::Vector2d& com) const {
-    return fmt::format("; the search came to ({:.3g}, {:.3g}), {:.3g} m from the goal", com.x(), com.y(),
-                       scene_.goal.distance(com));
+  /// How things stand, ten times a second.
+  void tell(const AnytimeSearch& search, const std::vector<Node>& starts) {
+    const auto now = Clock::now();
+    if (now < next_telling_) return;
+    next_telling_ = now + std::chrono::milliseconds(100);
+    const double seconds = std::chrono::duration<double>(now - begin_).count();
+    if (!search.path().empty())
+      return options_.progress(fmt::format("{}; looking for a better plan, {:.1f} s", search.cost(), seconds));
+    const double whole = scene_.goal.distance(starts.front().com), left = scene_.goal.distance(search.nearest_com());
+    options_.progress(fmt::format("searching: {:.3g} of {:.3g} m, {:.1f} s of at most {} s", std::max(whole - left, 0.0),
+                                  whole, seconds, options_.time_limit));
+  }
+
+  std::string came_to(const AnytimeSearch& search) const {
+    const Eigen::Vector2d com = search.nearest_com();
+    return fmt::format("; Layers came to ({:.3g}, {:.3g}), {:.3g} m from the goal, {}", com.x(), com.y(),
+                       scene_.goal.distance(com), search.refusals().summary());
   }
 
   std::vector<Node> take_turns(const std::vector<Node>& starts) {
@@ -232,7 +249,7 @@ class Search {
   const gaits::Scene& scene_;
   const SearchOptions& options_;
   std::vector<Turn> turns_;
-  Clock::time_point begin_, deadline_;
+  Clock::time_point begin_, deadline_, next_telling_{};
   StepProposals proposals_;
   gaits::Plan plan_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace surefoot::planner {
 
@@ -139,22 +138,9 @@ bool StepProposals::is_legal(const Node& from, const Node& to) {
 }
 
 std::string summary(const ProposalCounts& counts) {
-  std::array<std::size_t, gaits::rule_count> order;
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return counts.blocked[a] > counts.blocked[b]; });
-  const auto total = std::accumulate(counts.blocked.begin(), counts.blocked.end(), std::uint64_t{0});
-  std::string text = std::to_string(counts.legal) + " legal steps among " + std::to_string(counts.proposed) +
-                     " proposals";
-  bool first = true;
-  for (const std::size_t rule : order) {
-    const std::uint64_t percent = total > 0 ? (100 * counts.blocked[rule] + total / 2) / total : 0;
-    if (percent == 0) continue;
-    text += (first ? "; refused for " : ", ") + std::string(gaits::to_string(static_cast<Rule>(rule))) + " " +
-            std::to_string(percent) + " %";
-    first = false;
-  }
-  return text;
+  const std::string refused = shares(counts.blocked);
+  return std::to_string(counts.legal) + " legal steps among " + std::to_string(counts.proposed) + " proposals" +
+         (refused.empty() ? "" : "; refused for " + refused);
 }
 
 }  // namespace surefoot::planner

@@ -16,6 +16,7 @@
 #include "gaits/scene.hpp"
 #include "planner/com_window.hpp"
 #include "planner/node.hpp"
+#include "planner/refusals.hpp"
 
 namespace surefoot::planner {
 
@@ -40,8 +41,7 @@ Eigen::Vector2d progress_point(const Node& node);
 
 /// What stood against the proposals so far.
 struct ProposalCounts {
-  /// By gaits::Rule; stance_stability includes an empty R_SS(W).
-  std::array<std::uint64_t, gaits::rule_count> blocked{};
+  RuleCounts blocked{};  ///< stance_stability includes an empty R_SS(W)
   std::uint64_t proposed = 0, legal = 0;
   std::uint64_t swings_asked = 0, swings_skipped = 0;
 };

@@ -59,7 +59,7 @@ std::string Refusals::summary() const {
   };
   const Place& worst = std::max_element(places_.begin(), places_.end(), less)->second;
   const std::string place = shares(worst.refused);
-  return text + fmt::format("; most of them ({} %) with the COM between ({:.3g}, {:.3g}) and ({:.3g}, {:.3g}){}",
+  return text + fmt::format("; most of them ({} %) with the COM between ({:.5g}, {:.5g}) and ({:.5g}, {:.5g}){}",
                             percent(sum(worst.refused), all), worst.corner.x(), worst.corner.y(),
                             worst.corner.x() + side_, worst.corner.y() + side_,
                             place == shares(total_) ? "" : ": " + place);

@@ -37,6 +37,8 @@ constexpr Turn auto_turns[] = {{"RRT", 0.7, 1000}, {"EST", 0.3, 2000}, {"RRT", 0
 // Work of Layers, a third of a microsecond to one a unit.
 constexpr std::uint64_t stall_before_proof = 150'000;  ///< without progress: then it is time to ask whether there is a plan
 constexpr std::uint64_t greatest_stall = 1'500'000;
+// Relative to reach_max: a way from the start beyond which barriers are looked for near its end first, and how far there.
+constexpr double long_way = 20, window_widths[] = {4, 10};
 constexpr std::uint64_t usual_improvement = 1'000'000;
 
 std::vector<Turn> turns_of(const std::string& planner) {
@@ -120,25 +122,44 @@ class Search {
     return {};
   }
 
+  /// Where to look for a barrier: on long terrain around the place that a search came to, `nearest`, then everywhere.
+  std::vector<std::optional<ProofWindow>> windows(const std::vector<Node>& starts, const Eigen::Vector2d& nearest) const {
+    std::vector<std::optional<ProofWindow>> windows;
+    if (const double way = nearest.x() - starts.front().com.x();
+        scene_.goal.com_x && std::abs(way) > long_way * scene_.robot.reach_max)
+      for (const double width : window_widths) {
+        const double half = std::copysign(width * scene_.robot.reach_max, way);
+        windows.push_back(ProofWindow{nearest.x() - half, nearest.x() + half});
+      }
+    windows.emplace_back();
+    return windows;
+  }
+
   /// Whether it can be proven that there is no plan; then that is the result.
-  bool is_impossible(const std::function<bool()>& stop = [] { return false; }) {
-    if (!options_.prove || stopped()) return false;
+  bool is_impossible(const std::vector<std::optional<ProofWindow>>& windows = {std::nullopt},
+                     const std::function<bool()>& stop = [] { return false; }) {
     ProofLimits limits;
     limits.deadline = deadline_;
     limits.stop = [this, &stop] { return options_.interrupted() || stop(); };
-    const auto impossibility = prove_infeasible(scene_, limits);
-    if (!impossibility) return false;
-    plan_.status = gaits::Status::infeasible;
-    plan_.reason = impossibility->reason;
-    return true;
+    for (const auto& window : windows) {
+      if (!options_.prove || stopped() || limits.stop()) return false;
+      limits.window = window;
+      const auto impossibility = prove_infeasible(scene_, limits);
+      if (!impossibility) continue;
+      plan_.status = gaits::Status::infeasible;
+      plan_.reason = impossibility->reason;
+      return true;
+    }
+    return false;
   }
 
   /// Looks for a first plan and, once that stalls, for a proof that there is none beside it. Only one of the two can
   /// exist, so it does not matter which thread is faster.
-  bool find_first(AnytimeSearch& search, std::atomic<bool>& proven) {
+  bool find_first(AnytimeSearch& search, const std::vector<Node>& starts, std::atomic<bool>& proven) {
     if (search.find(stall_before_proof)) return true;
     std::atomic<bool> found = false;
-    auto proof = beside([&] { return proven = is_impossible([&found] { return found.load(); }); });
+    const auto where = windows(starts, search.nearest_com());
+    auto proof = beside([&] { return proven = is_impossible(where, [&found] { return found.load(); }); });
     found = search.find(greatest_stall);
     proof.get();
     return found;
@@ -154,7 +175,7 @@ class Search {
     };
     AnytimeSearch search(proposals_, starts, anytime);
     running = &search;
-    if (!find_first(search, proven)) {
+    if (!find_first(search, starts, proven)) {
       if (proven) return {};
       std::vector<Node> path = take_turns(starts);
       if (path.empty()) plan_.reason += came_to(search);
@@ -215,7 +236,7 @@ class Search {
 
   std::string came_to(const AnytimeSearch& search) const {
     const Eigen::Vector2d com = search.nearest_com();
-    return fmt::format("; Layers came to ({:.3g}, {:.3g}), {:.3g} m from the goal, {}", com.x(), com.y(),
+    return fmt::format("; Layers came to ({:.5g}, {:.5g}), {:.4g} m from the goal, {}", com.x(), com.y(),
                        scene_.goal.distance(com), search.refusals().summary());
   }
 
@@ -240,9 +261,10 @@ class Search {
     const char* end = options_.interrupted()       ? "before the search was interrupted"
                       : Clock::now() < deadline_ ? "within the work a search may do"
                                                  : "within the time limit";
-    // The counts are of OMPL's planners: Layers asks for no proposals.
+    // The counts are of OMPL's planners: Layers asks for no proposals and speaks for itself.
+    const bool layers = options_.planner == "auto" || iterations == 0;
     plan_.reason = fmt::format("no plan found {} ({}{})", end, options_.planner,
-                               iterations > 0 ? "; " + summary(proposals_.counts()) : "");
+                               layers ? "" : "; " + summary(proposals_.counts()));
     return {};
   }
 

@@ -41,7 +41,7 @@ const char* to_string(Status status);
 
 /// How far a search went that knows.
 struct Resolution {
-  double foothold_spacing = 0;     ///< of the finest lattice begun [m]
+  double foothold_spacing = 0;     ///< of the finest lattice exhausted or, where none was, begun [m]
   int com_columns = 0;             ///< of COMs across each pair of footholds there
   bool fewest_on_lattice = false;  ///< that lattice has no plan of fewer steps
   int least_steps = 0;             ///< no plan whatever has fewer

@@ -19,7 +19,16 @@ struct Stage {
   int width, level;
 };
 constexpr Stage stages[] = {{4, 0}, {8, 0},   {32, 0},   {128, 1},  {512, 1},  {256, 2},  {1024, 2},
-                            {512, 3}, {4096, 2}, {2048, 3}, {8192, 3}, {4096, 4}, {1 << 28, 4}};
+                            {512, 3}, {4096, 2}, {2048, 3}, {8192, 3}, {4096, 4}};
+constexpr int unlimited_width = 1 << 28;
+/// After these every level to its end.
+constexpr int first_unlimited = 4;
+constexpr std::size_t stage_count = std::size(stages) + FootholdLattice::levels - first_unlimited;
+
+constexpr Stage stage_at(std::size_t number) {
+  if (number < std::size(stages)) return stages[number];
+  return {unlimited_width, first_unlimited + static_cast<int>(number - std::size(stages))};
+}
 
 constexpr double first_raise = 1.5;      ///< of the disturbances beyond what the plan bears, while that succeeds
 constexpr double scale_precision = 0.02; ///< relative: a plan safer by less is not looked for
@@ -31,15 +40,6 @@ double spacing_factor(std::uint32_t seed) {
   constexpr double golden = 0.6180339887498949;
   const double x = golden * (seed - 1.0);
   return 1 + 0.4 * (x - std::floor(x + 0.5));
-}
-
-/// From any COM that a plan may begin with to the goal [m]; a lower bound.
-double least_distance(const gaits::Scene& scene) {
-  if (scene.start.com) return scene.goal.distance(*scene.start.com);
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& foot : scene.start.feet)
-    if (foot) least = std::min(least, scene.goal.distance(foot->position));
-  return std::max(0.0, least - scene.robot.reach_max);
 }
 
 double way_of_com(const std::vector<Node>& path) {
@@ -83,8 +83,8 @@ bool AnytimeSearch::begin(double scale) {
 
 LayerSearch::Limits AnytimeSearch::limits(std::uint64_t until) const {
   LayerSearch::Limits limits;
-  limits.width = stages[stage_].width;
-  limits.level = stages[stage_].level;
+  limits.width = stage_at(stage_).width;
+  limits.level = stage_at(stage_).level;
   limits.sharpen = options_.sharpen;
   limits.work = until > spent_ ? until - spent_ : 0;
   limits.stop = options_.stop;
@@ -141,6 +141,7 @@ bool AnytimeSearch::improve(std::uint64_t work_more) {
 /// Fewer steps on the lattice in use. False if the schedule is at its end.
 bool AnytimeSearch::improve_steps(std::uint64_t until) {
   while (work() < until && !options_.stop()) {
+    if (options_.objective == "steps" && static_cast<int>(path_.size()) - 1 <= fewest_steps()) return false;
     LayerSearch::Limits now = limits(until);
     now.below = static_cast<int>(path_.size()) - 1;
     finest_ = std::max(finest_, now.level);
@@ -150,11 +151,11 @@ bool AnytimeSearch::improve_steps(std::uint64_t until) {
         break;
       case LayerSearch::End::exhausted:
         exhausted_level_ = now.level;
-        while (stage_ + 1 < std::size(stages) && stages[stage_].level <= exhausted_level_) ++stage_;
-        if (stages[stage_].level <= exhausted_level_) return false;
+        while (stage_ + 1 < stage_count && stage_at(stage_).level <= exhausted_level_) ++stage_;
+        if (stage_at(stage_).level <= exhausted_level_) return false;
         break;
       case LayerSearch::End::width:
-        if (stage_ + 1 == std::size(stages)) return false;
+        if (stage_ + 1 == stage_count) return false;
         ++stage_;
         break;
       case LayerSearch::End::limit:
@@ -196,14 +197,30 @@ std::string AnytimeSearch::cost() const {
 
 Eigen::Vector2d AnytimeSearch::nearest_com() const { return layers_->best(); }
 
+/// No plan whatever has fewer.
+int AnytimeSearch::fewest_steps() const {
+  const auto& scene = proposals_->scene();
+  int fewest = std::numeric_limits<int>::max();
+  for (int lifted = 0; lifted < gaits::leg_count; ++lifted) {
+    const int a = lifted == 0 ? 1 : 0, b = lifted == 2 ? 1 : 2;
+    const auto &one = scene.start.feet[a], &other = scene.start.feet[b];
+    if (!one || !other || (scene.start.support && *scene.start.support != std::pair(a, b))) continue;
+    const double first = scene.goal.distance(one->position), second = scene.goal.distance(other->position);
+    ToGoal stance{0, std::max(first, second), std::min(first, second)};
+    stance.com = scene.start.com ? scene.goal.distance(*scene.start.com) : stance.rear - scene.robot.reach_max;
+    fewest = std::min(fewest, least_steps(stance, scene.robot.reach_max));
+  }
+  return fewest < std::numeric_limits<int>::max() ? fewest : 0;
+}
+
 gaits::Resolution AnytimeSearch::resolution() const {
   gaits::Resolution resolution;
-  const auto& scene = proposals_->scene();
-  resolution.foothold_spacing = std::ldexp(lattice_.spacing * scene.robot.reach_max, -finest_);
-  resolution.com_columns = lattice_.columns << finest_;
-  resolution.fewest_on_lattice =
-      options_.objective == "steps" && exhausted_level_ >= finest_ && !layers_->swing_mattered();
-  resolution.least_steps = least_steps(least_distance(scene), scene.robot.reach_max);
+  const bool exhausted = options_.objective == "steps" && exhausted_level_ >= 0 && !layers_->swing_mattered();
+  const int level = exhausted ? exhausted_level_ : finest_;
+  resolution.foothold_spacing = std::ldexp(lattice_.spacing * proposals_->scene().robot.reach_max, -level);
+  resolution.com_columns = lattice_.columns << level;
+  resolution.fewest_on_lattice = exhausted;
+  resolution.least_steps = fewest_steps();
   return resolution;
 }
 

@@ -5,7 +5,10 @@
 //   safety    stable under disturbances larger than the scene's, by a factor that is raised and halved towards the
 //             largest that a plan is found for; then fewer steps at that factor;
 //   distance  as for steps, the COM's path then drawn tight, and the shortest kept.
-// The lattice ends at a sixteenth of its first spacing, and the search where its memory is full: what is finer is missed.
+// The lattice gets ever finer until the work is done or memory is full (it ends at 2^-15 of its first spacing, which no
+// memory lets be exhausted): with unlimited work and memory the steps come down to the fewest of any plan that bears its
+// footholds and COMs being moved a little, but for plans that need a swing which only some origin of the free leg allows
+// (of stances that differ in nothing else the first is kept).
 // Deterministic for a seed: limits are counted in work, not in time.
 #pragma once
 
@@ -61,6 +64,7 @@ class AnytimeSearch {
   bool take(std::vector<Node> path);
   bool improve_steps(std::uint64_t until);
   bool improve_safety(std::uint64_t until);
+  int fewest_steps() const;
   double least_factor(const std::vector<Node>& path) const;
 
   StepProposals* proposals_;

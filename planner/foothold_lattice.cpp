@@ -18,31 +18,57 @@ void FootholdLattice::take(const terrain::Segment& segment, double at) {
   if (const auto foothold = terrain_->foothold_at(segment.chain, segment.s_begin + at)) footholds_.push_back(*foothold);
 }
 
-FootholdLattice::Row FootholdLattice::row_of(int level, const terrain::Segment& segment) {
-  auto& rows = rows_[static_cast<std::size_t>(level)];
-  if (rows.empty()) rows.resize(terrain_->segments().size());
-  Row& row = rows[static_cast<std::size_t>(&segment - terrain_->segments().data())];
-  if (row.first >= 0) return row;
-  row.first = static_cast<int>(footholds_.size());
+FootholdLattice::Division FootholdLattice::divide(const terrain::Segment& segment) const {
   const double inset = std::min(inset_, segment.length / 4), inner = segment.length - 2 * inset;
-  const int intervals = std::max(1, static_cast<int>(std::min(std::ceil(inner / spacing_), 1e6))) << level;
-  const double outer = std::ldexp(inset, -level);
-  if (level > 0) take(segment, outer);
-  for (int i = level > 0 ? 1 : 0; i <= intervals; i += level > 0 ? 2 : 1) take(segment, inset + inner * i / intervals);
-  if (level > 0) take(segment, segment.length - outer);
+  const double intervals = std::clamp(std::ceil(inner / spacing_), 1.0, most_intervals);
+  return {inset, inner, static_cast<std::int64_t>(intervals)};
+}
+
+FootholdLattice::Row& FootholdLattice::row_of(int level, const terrain::Segment& segment, std::int64_t piece_number) {
+  const auto of_level = static_cast<std::size_t>(level);
+  const auto index = static_cast<std::size_t>(&segment - terrain_->segments().data());
+  if (piece_number > 0) return more_rows_[of_level][index << 35 | static_cast<std::uint64_t>(piece_number)];
+  auto& rows = rows_[of_level];
+  if (rows.empty()) rows.resize(terrain_->segments().size());
+  return rows[index];
+}
+
+/// Level 0 has the ends of the intervals, each further level the middles between what is there; the first and the last
+/// piece have one more, nearer to the end of the segment.
+void FootholdLattice::fill(Row& row, int level, const terrain::Segment& segment, const Division& division,
+                           std::int64_t piece_number) {
+  row.first = static_cast<int>(footholds_.size());
+  const bool last = (piece_number + 1) * piece >= division.intervals;
+  const std::int64_t begin = (piece_number * piece) << level;
+  const std::int64_t end = std::min((piece_number + 1) * piece, division.intervals) << level;
+  const double outer = std::ldexp(division.inset, -level), parts = std::ldexp(static_cast<double>(division.intervals), level);
+  if (level > 0 && piece_number == 0) take(segment, outer);
+  // The end of a piece is the beginning of the next.
+  const std::int64_t to = level == 0 && !last ? end - 1 : end;
+  for (std::int64_t i = level > 0 ? begin + 1 : begin; i <= to; i += level > 0 ? 2 : 1)
+    take(segment, division.inset + division.inner * static_cast<double>(i) / parts);
+  if (level > 0 && last) take(segment, segment.length - outer);
   row.count = static_cast<int>(footholds_.size()) - row.first;
-  return row;
 }
 
 void FootholdLattice::list(int level, std::vector<int>& numbers) {
   numbers.clear();
   for (const terrain::Stretch& stretch : stretches_) {
-    const Row row = row_of(level, *stretch.segment);
-    const auto begin = footholds_.begin() + row.first, end = begin + row.count;
-    auto at = std::lower_bound(begin, end, stretch.s_begin,
-                               [](const terrain::Foothold& foothold, double s) { return foothold.s < s; });
-    for (; at != end && at->s <= stretch.s_end; ++at)
-      numbers.push_back(static_cast<int>(at - footholds_.begin()));
+    const terrain::Segment& segment = *stretch.segment;
+    const Division division = divide(segment);
+    const auto piece_at = [&](double s) {
+      const double at = (s - segment.s_begin - division.inset) / division.inner * static_cast<double>(division.intervals);
+      return std::clamp<std::int64_t>(static_cast<std::int64_t>(at), 0, division.intervals - 1) / piece;
+    };
+    // What rounding puts into a neighbouring piece is missed: a foothold at the very end of reach.
+    for (std::int64_t number = piece_at(stretch.s_begin); number <= piece_at(stretch.s_end); ++number) {
+      Row& row = row_of(level, segment, number);
+      if (row.first < 0) fill(row, level, segment, division, number);
+      const auto begin = footholds_.begin() + row.first, end = begin + row.count;
+      auto at = std::lower_bound(begin, end, stretch.s_begin,
+                                 [](const terrain::Foothold& foothold, double s) { return foothold.s < s; });
+      for (; at != end && at->s <= stretch.s_end; ++at) numbers.push_back(static_cast<int>(at - footholds_.begin()));
+    }
   }
 }
 

@@ -1,9 +1,11 @@
-// Footholds at even steps of arc length in nested levels, each twice as dense, made segment by segment where a search
-// comes by. Every segment has one near each end, where a gap or a riser is crossed best, and evenly spaced ones
+// Footholds at even steps of arc length in nested levels, each twice as dense, made where a search comes by: segment by
+// segment, long ones piece by piece. Every segment has one near each end, where a gap or a riser is crossed best, and evenly spaced ones
 // between. Same arguments, same footholds, whatever the order of the questions; their numbers depend on that order.
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "terrain/terrain.hpp"
@@ -12,7 +14,8 @@ namespace surefoot::planner {
 
 class FootholdLattice {
  public:
-  static constexpr int levels = 5;
+  /// The last is 2^-15 of the first: far beyond what memory lets a search exhaust.
+  static constexpr int levels = 16;
 
   /// On level 0 footholds are at most `spacing` apart on their segment, the outermost `inset` from its ends (less on a
   /// segment that is short) [m], both > 0. Each further level halves both and holds what is new.
@@ -31,16 +34,27 @@ class FootholdLattice {
   std::size_t size() const { return footholds_.size(); }
 
  private:
+  static constexpr double most_intervals = 1e12;  ///< per segment on level 0: beyond, they are longer than `spacing`
+  static constexpr std::int64_t piece = 64;       ///< intervals of level 0 that are made at once
+
   struct Row {
-    int first = -1;  ///< number of the segment's first foothold; -1: none made yet
+    int first = -1;  ///< number of its first foothold; -1: none made yet
     int count = 0;
   };
-  Row row_of(int level, const terrain::Segment& segment);
+  /// How a segment is divided on level 0.
+  struct Division {
+    double inset, inner;     ///< [m]
+    std::int64_t intervals;
+  };
+  Division divide(const terrain::Segment& segment) const;
+  Row& row_of(int level, const terrain::Segment& segment, std::int64_t piece_number);
+  void fill(Row& row, int level, const terrain::Segment& segment, const Division& division, std::int64_t piece_number);
   void take(const terrain::Segment& segment, double at);
 
   const terrain::Terrain* terrain_;
   double spacing_, inset_;
-  std::array<std::vector<Row>, levels> rows_;  ///< by segment
+  std::array<std::vector<Row>, levels> rows_;  ///< of the first pieces, by segment
+  std::array<std::unordered_map<std::uint64_t, Row>, levels> more_rows_;
   std::vector<terrain::Foothold> footholds_;
   std::vector<terrain::Stretch> stretches_;
 };

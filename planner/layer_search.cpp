@@ -10,6 +10,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr unsigned stop_interval = 64;  ///< looks at the limits per question whether to stop, which reads a clock
+constexpr int finest_for_dead_ends = 4;  ///< level beyond which a way out of a dead end is not looked for
 constexpr int width_factor = 4;  ///< by which the layers before a dead end are widened each time it is met
 
 }  // namespace
@@ -231,13 +232,13 @@ LayerSearch::End LayerSearch::run(const Limits& limits) {
     dead_end.count(front_);
     const std::size_t last = std::min(k, end() - 1);
     k = front_.layer > dead_end.back() ? front_.layer - dead_end.back() : 0;
-    const int level = std::min(limits.level + dead_end.level(), FootholdLattice::levels - 1);
+    const int level = std::max(std::min(limits.level + dead_end.level(), finest_for_dead_ends), limits.level);
     for (std::size_t i = k; i <= last; ++i) {
       Layer& layer = layers_[i];
       layer.width = std::min(width_factor * layer.width, 1 << 28);
       if (layer.level < level) layer.level = level, layer.raised = 0;
     }
-    if (k == 0 && level + 1 == FootholdLattice::levels && !any_open(end())) return End::exhausted;
+    if (k == 0 && level >= finest_for_dead_ends && !any_open(end())) return End::exhausted;
   }
 }
 

@@ -13,21 +13,25 @@ namespace surefoot::planner {
 
 namespace {
 
-/// Wider and finer by turns. Measured on the canned scenes: the first gives a plan in milliseconds, the third nearly
-/// always one that the rest does not beat.
+/// Wider and finer by turns, then level after level to its end.
 struct Stage {
   int width, level;
 };
-constexpr Stage stages[] = {{4, 0}, {8, 0},   {32, 0},   {128, 1},  {512, 1},  {256, 2},  {1024, 2},
-                            {512, 3}, {4096, 2}, {2048, 3}, {8192, 3}, {4096, 4}};
-constexpr int unlimited_width = 1 << 28;
-/// After these every level to its end.
-constexpr int first_unlimited = 4;
-constexpr std::size_t stage_count = std::size(stages) + FootholdLattice::levels - first_unlimited;
+/// Measured on the canned scenes: the first gives a plan in milliseconds; most of what a second of work finds comes from
+/// the wide passes over coarse levels.
+constexpr Stage usual_stages[] = {{4, 0},   {8, 0},    {32, 0},  {128, 1},  {512, 1},  {256, 2},
+                                  {1024, 2}, {512, 3}, {4096, 2}, {2048, 3}, {8192, 3}, {4096, 4}};
+/// Of the companion: finer sooner, which some plans over small footholds need.
+constexpr Stage companion_stages[] = {{4, 0},   {16, 0}, {64, 0},  {32, 1},   {128, 1},  {64, 2},
+                                      {256, 2}, {128, 3}, {512, 3}, {1024, 2}, {8192, 3}, {4096, 4}};
+constexpr std::size_t limited_stages = std::size(usual_stages);
+static_assert(std::size(companion_stages) == limited_stages);
+constexpr int unlimited_width = 1 << 28, first_unlimited = 4;
+constexpr std::size_t stage_count = limited_stages + FootholdLattice::levels - first_unlimited;
 
-constexpr Stage stage_at(std::size_t number) {
-  if (number < std::size(stages)) return stages[number];
-  return {unlimited_width, first_unlimited + static_cast<int>(number - std::size(stages))};
+constexpr Stage stage_at(std::size_t number, bool companion) {
+  if (number < limited_stages) return companion ? companion_stages[number] : usual_stages[number];
+  return {unlimited_width, first_unlimited + static_cast<int>(number - limited_stages)};
 }
 
 constexpr double first_raise = 1.5;      ///< of the disturbances beyond what the plan bears, while that succeeds
@@ -81,11 +85,13 @@ bool AnytimeSearch::begin(double scale) {
   return !starts.empty();
 }
 
+int AnytimeSearch::level() const { return stage_at(stage_, options_.companion).level; }
+
 LayerSearch::Limits AnytimeSearch::limits(std::uint64_t until) const {
   LayerSearch::Limits limits;
-  limits.width = stage_at(stage_).width;
-  limits.level = stage_at(stage_).level;
-  limits.sharpen = options_.sharpen;
+  limits.width = stage_at(stage_, options_.companion).width;
+  limits.level = stage_at(stage_, options_.companion).level;
+  limits.sharpen = !options_.companion;
   limits.work = until > spent_ ? until - spent_ : 0;
   limits.stop = options_.stop;
   return limits;
@@ -151,8 +157,8 @@ bool AnytimeSearch::improve_steps(std::uint64_t until) {
         break;
       case LayerSearch::End::exhausted:
         exhausted_level_ = now.level;
-        while (stage_ + 1 < stage_count && stage_at(stage_).level <= exhausted_level_) ++stage_;
-        if (stage_at(stage_).level <= exhausted_level_) return false;
+        while (stage_ + 1 < stage_count && level() <= exhausted_level_) ++stage_;
+        if (level() <= exhausted_level_) return false;
         break;
       case LayerSearch::End::width:
         if (stage_ + 1 == stage_count) return false;
@@ -215,7 +221,9 @@ int AnytimeSearch::fewest_steps() const {
 
 gaits::Resolution AnytimeSearch::resolution() const {
   gaits::Resolution resolution;
-  const bool exhausted = options_.objective == "steps" && exhausted_level_ >= 0 && !layers_->swing_mattered();
+  // An open first COM is not on the lattice: others than those tried may allow fewer steps.
+  const bool exhausted = options_.objective == "steps" && exhausted_level_ >= 0 && !layers_->swing_mattered() &&
+                         proposals_->scene().start.com;
   const int level = exhausted ? exhausted_level_ : finest_;
   resolution.foothold_spacing = std::ldexp(lattice_.spacing * proposals_->scene().robot.reach_max, -level);
   resolution.com_columns = lattice_.columns << level;

@@ -28,7 +28,8 @@ namespace surefoot::planner {
 struct AnytimeOptions {
   std::uint32_t seed = 1;           ///< 1 is the standard lattice, others are up to a fifth finer or coarser
   std::string objective = "steps";  ///< steps, safety or distance
-  bool sharpen = true;              ///< LayerSearch::Limits::sharpen: mostly better plans, seldom other ones
+  /// Beside another search: finer sooner, and COMs are left on their columns. Where one misses a plan, the other may not.
+  bool companion = false;
   /// Asked now and then; true ends the search with what it has.
   std::function<bool()> stop = [] { return false; };
 };
@@ -65,6 +66,7 @@ class AnytimeSearch {
   bool improve_steps(std::uint64_t until);
   bool improve_safety(std::uint64_t until);
   int fewest_steps() const;
+  int level() const;
   double least_factor(const std::vector<Node>& path) const;
 
   StepProposals* proposals_;

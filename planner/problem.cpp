@@ -18,7 +18,6 @@ namespace {
 constexpr int com_samples = 400;         ///< COMs tried per pair of start feet
 constexpr int goal_samples = 200;        ///< of these, drawn from the goal where the start feet reach it
 constexpr std::size_t keep_per_pair = 3; ///< first stances handed to the search per pair of start feet
-constexpr std::size_t keep_nearest = 2;
 constexpr int first_step_tries = 64;     ///< codes tried to see whether a first step exists
 constexpr std::uint64_t goal_pairs = 30000;
 constexpr int coms_per_pair = 6;
@@ -86,7 +85,7 @@ bool no_com_balances(const gaits::Scene& scene, const gaits::Feet& feet, const s
 }
 
 /// First stances on two given feet with a COM of our choice: the safest few that a first step leads on from, and the
-/// nearest few to the goal.
+/// one nearest to the goal.
 void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& choice) {
   const gaits::Scene& scene = proposals.scene();
   const auto oracle = gaits::oracle_of(scene, stance.feet);
@@ -118,19 +117,16 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::size_t kept = 0;
-  const auto keep = [&](std::size_t most) {
-    for (std::size_t i = 0; i < found.size() && kept < most; ++i) {
-      if (!has_first_step(proposals, found[i].second)) continue;
-      choice.nodes.push_back(found[i].second);
-      ++kept;
-    }
-  };
-  keep(keep_per_pair);
-  std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+  for (std::size_t i = 0; i < found.size() && kept < keep_per_pair; ++i) {
+    if (!has_first_step(proposals, found[i].second)) continue;
+    choice.nodes.push_back(found[i].second);
+    ++kept;
+  }
+  if (kept == 0 && !found.empty()) choice.nodes.push_back(found.front().second);
+  const auto nearest = std::min_element(found.begin(), found.end(), [&](const auto& a, const auto& b) {
     return scene.goal.distance(a.second.com) < scene.goal.distance(b.second.com);
   });
-  keep(kept + keep_nearest);
-  if (kept == 0 && !found.empty()) choice.nodes.push_back(found.front().second);
+  if (nearest != found.end()) choice.nearest.push_back(nearest->second);
   if (found.empty()) {
     choice.decided = false;
     choice.fault += fmt::format("{}no stable COM was found for feet {} in {} tries", choice.fault.empty() ? "" : "; ",

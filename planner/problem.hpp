@@ -17,6 +17,8 @@ struct StartChoice {
   /// Legal first stances: those in the goal before all others, then by pair of feet (legs 1 and 2, 1 and 3, 2 and 3),
   /// the safest of each pair first.
   std::vector<Node> nodes;
+  /// Where the COM is open: of each pair the one nearest to the goal. For searches that have tried the others.
+  std::vector<Node> nearest;
   std::string fault;     ///< why there is none, with the rule and the numbers; empty otherwise
   bool decided = false;  ///< the fault is proven for every choice left open: bad input (otherwise: none was found)
 };

@@ -114,7 +114,7 @@ class Search {
     }
     if (scene_.goal.contains(start.nodes.front().com)) return {start.nodes.front()};
     const bool layers = options_.planner == "auto" || options_.planner == "Layers";
-    std::vector<Node> path = layers ? search_layers(start.nodes) : take_turns(start.nodes);
+    std::vector<Node> path = layers ? search_layers(start) : take_turns(start.nodes);
     if (path.empty() && !layers && is_impossible()) return {};
     if (!path.empty() || plan_.status == gaits::Status::infeasible) return path;
     if (const GoalLook look = look_at_goal(scene_); !look.standable)
@@ -165,7 +165,8 @@ class Search {
     return found;
   }
 
-  std::vector<Node> search_layers(const std::vector<Node>& starts) {
+  std::vector<Node> search_layers(const StartChoice& start) {
+    const std::vector<Node>& starts = start.nodes;
     std::atomic<bool> proven = false;
     const AnytimeSearch* running = nullptr;
     AnytimeOptions anytime{.seed = options_.seed, .objective = options_.objective};
@@ -182,30 +183,32 @@ class Search {
       return path;
     }
     plan_.planner = "Layers";
-    improve(search, starts);
+    improve(search, start);
     plan_.resolution = search.resolution();
     return search.path();
   }
 
   /// Betters the plan, in slices and telling the best so far in between; beside it a second search with another lattice
   /// does the same, and the better plan is kept.
-  void improve(AnytimeSearch& search, const std::vector<Node>& starts) {
+  void improve(AnytimeSearch& search, const StartChoice& start) {
     // A first plan that was dear (long terrain) has had its share of the work.
     const std::uint64_t spent = std::min(2 * search.work(), usual_improvement);
     const double usual = static_cast<double>(usual_improvement);
     const auto work = static_cast<std::uint64_t>(
         std::clamp(options_.effort * usual - static_cast<double>(spent), 0.0, 1e18));
     if (work == 0) return;
-    auto other = beside([&] { return search_elsewhere(starts, work); });
+    auto other = beside([&] { return search_elsewhere(start, work); });
     const std::uint64_t slice = std::max<std::uint64_t>(work / 20, 1), until = search.work() + work;
     while (!stopped() && search.work() < until && search.improve(slice)) {
     }
     search.offer(other.get());
   }
 
-  std::vector<Node> search_elsewhere(const std::vector<Node>& starts, std::uint64_t work) const {
+  std::vector<Node> search_elsewhere(const StartChoice& start, std::uint64_t work) const {
+    std::vector<Node> starts = start.nodes;
+    starts.insert(starts.end(), start.nearest.begin(), start.nearest.end());
     StepProposals proposals(scene_);
-    const AnytimeOptions anytime{turn_seed(options_.seed, 1), options_.objective, false, [this] { return stopped(); }};
+    const AnytimeOptions anytime{turn_seed(options_.seed, 1), options_.objective, true, [this] { return stopped(); }};
     AnytimeSearch search(proposals, starts, anytime);
     if (search.find(stall_before_proof)) search.improve(work);
     return search.path();

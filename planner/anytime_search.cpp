@@ -77,12 +77,16 @@ bool AnytimeSearch::begin(double scale) {
   std::vector<Node> starts;
   for (std::size_t i = 0; i < starts_.size(); ++i)
     if (scale <= 1 || start_factors_[i] > scale) starts.push_back(starts_[i]);
-  stability::DisturbanceBox box = proposals_->scene().disturbance;
-  box.kappa *= scale, box.nu *= scale;
   scale_ = scale;
   stage_ = 0;
-  layers_ = std::make_unique<LayerSearch>(*proposals_, starts, lattice_, box);
+  layers_ = std::make_unique<LayerSearch>(*proposals_, starts, lattice_, box());
   return !starts.empty();
+}
+
+stability::DisturbanceBox AnytimeSearch::box() const {
+  stability::DisturbanceBox box = proposals_->scene().disturbance;
+  box.kappa *= scale_, box.nu *= scale_;
+  return box;
 }
 
 int AnytimeSearch::level() const { return stage_at(stage_, options_.companion).level; }
@@ -111,9 +115,19 @@ double AnytimeSearch::least_factor(const std::vector<Node>& path) const {
   return plan.safety_factor;
 }
 
+/// Under the disturbances that it was found for.
+std::vector<Node> AnytimeSearch::cleaned_up(std::vector<Node> path) {
+  if (scale_ <= 1) return shorten(*proposals_, std::move(path), options_.objective);
+  StepProposals scaled(proposals_->scene(), box());
+  for (Node& node : path) node.id = scaled.next_id();
+  path = shorten(scaled, std::move(path), options_.objective);
+  for (Node& node : path) node.id = proposals_->next_id();
+  return path;
+}
+
 /// Keeps a path if it betters the objective.
 bool AnytimeSearch::take(std::vector<Node> path) {
-  path = shorten(*proposals_, std::move(path), options_.objective);
+  path = cleaned_up(std::move(path));
   if (path_.empty()) {
     path_ = std::move(path);
     ++improvements_;
@@ -173,20 +187,25 @@ bool AnytimeSearch::improve_steps(std::uint64_t until) {
 
 /// Raises the size of the disturbances until no plan is found, then halves the interval. True while that goes on.
 bool AnytimeSearch::improve_safety(std::uint64_t until) {
-  const auto& box = proposals_->scene().disturbance;
-  const bool nothing_to_scale = box.kappa == 0 && box.nu == 0;
+  const auto& given = proposals_->scene().disturbance;
+  const bool nothing_to_scale = given.kappa == 0 && given.nu == 0;
   while (!nothing_to_scale && factor_ < greatest_scale && work() < until && !options_.stop()) {
-    const double base = std::max(factor_, 1.0);
-    if (refused_ < base * (1 + scale_precision)) break;
-    const double scale = std::min(std::sqrt(base * refused_), first_raise * base);
-    bool found = false;
-    if (begin(scale)) {
-      LayerSearch::Limits now = limits(until);
-      now.stall = safety_stall;
-      found = layers_->run(now) == LayerSearch::End::found && take(layers_->path());
-      if (!found && work() >= until) return true;
+    if (!trial_) {
+      const double base = std::max(factor_, 1.0);
+      if (refused_ < base * (1 + scale_precision)) break;
+      trial_ = std::min(std::sqrt(base * refused_), first_raise * base);
+      if (!begin(*trial_)) {
+        refused_ = *trial_;
+        trial_.reset();
+        continue;
+      }
     }
-    if (!found) refused_ = scale;
+    LayerSearch::Limits now = limits(until);
+    now.stall = safety_stall;
+    const bool found = layers_->run(now) == LayerSearch::End::found && take(layers_->path());
+    if (!found && (work() >= until || options_.stop())) return true;  // goes on from here
+    if (!found) refused_ = *trial_;
+    trial_.reset();
   }
   if (work() >= until || options_.stop()) return true;
   scale_settled_ = true;

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,8 @@ class AnytimeSearch {
   LayerSearch::Limits limits(std::uint64_t until) const;
   bool begin(double scale);
   bool take(std::vector<Node> path);
+  std::vector<Node> cleaned_up(std::vector<Node> path);
+  stability::DisturbanceBox box() const;
   bool improve_steps(std::uint64_t until);
   bool improve_safety(std::uint64_t until);
   int fewest_steps() const;
@@ -81,6 +84,7 @@ class AnytimeSearch {
   int finest_ = 0;              ///< level begun
   int exhausted_level_ = -1;    ///< level on which no plan of fewer steps exists
   double scale_ = 1;            ///< of the disturbances on the lattice in use
+  std::optional<double> trial_; ///< scale that a plan is being looked for
   double factor_ = 0;           ///< least safety factor of the plan
   double refused_ = 0;          ///< scale for which there is no plan, or none was found
   bool scale_settled_ = false;

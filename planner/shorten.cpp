@@ -110,7 +110,7 @@ class Shortener {
     // Between the steps the COM reaches the three feet on the ground; the second foothold is asked for COM by COM.
     Polygon window = reach_window(three, proposals_.robot().reach_max);
     if (window.empty()) return false;
-    window = gaits::oracle_of(proposals_.scene(), two).equilibrium_polygon(window);
+    window = gaits::oracle_of(proposals_.scene(), two, proposals_.box()).equilibrium_polygon(window);
     if (window.empty()) return false;
     Renaming name;
     name[first] = from.free_leg;
@@ -156,18 +156,36 @@ bool may_move(StepProposals& proposals, const std::vector<Node>& path, std::size
   return proposals.is_legal(path[i - 1], moved) && proposals.is_legal(moved, path[i + 1]);
 }
 
-/// Each COM half the way, or a quarter, to the middle between its neighbours, where that is legal.
+double way_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b - a).norm() + (c - b).norm();
+}
+
+/// Each COM towards the line between its neighbours: to its middle, to where it is nearest, or a part of the way there.
+/// The last towards the one before it. Ends where a sweep gains next to nothing.
 void straighten(StepProposals& proposals, std::vector<Node>& path) {
+  constexpr int most_sweeps = 40;
+  constexpr double worth_while = 1e-4;  // of the way
   Node moved;
-  for (int sweep = 0; sweep < 3; ++sweep)
-    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-      const Eigen::Vector2d middle = 0.5 * (path[i - 1].com + path[i + 1].com);
-      for (const double part : {1.0, 0.5, 0.25})
-        if (may_move(proposals, path, i, path[i].com + part * (middle - path[i].com), moved)) {
-          path[i] = moved;
-          break;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double way = 0, gained = 0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const Eigen::Vector2d &before = path[i - 1].com, &here = path[i].com;
+      const Eigen::Vector2d after = i + 1 < path.size() ? path[i + 1].com : before, line = after - before;
+      way += (here - before).norm();
+      const double along = line.squaredNorm() > 0 ? std::clamp((here - before).dot(line) / line.squaredNorm(), 0.0, 1.0) : 0;
+      double gain = 0;
+      Node best;
+      for (const Eigen::Vector2d& target : {Eigen::Vector2d(before + 0.5 * line), Eigen::Vector2d(before + along * line)})
+        for (const double part : {1.0, 0.5, 0.25, 0.1}) {
+          const Eigen::Vector2d com = here + part * (target - here);
+          const double shorter = way_between(before, here, after) - way_between(before, com, after);
+          if (shorter > gain && may_move(proposals, path, i, com, moved)) gain = shorter, best = moved;
         }
+      if (gain > 0) path[i] = best;
+      gained += gain;
     }
+    if (!(gained > worth_while * way)) return;
+  }
 }
 
 /// The least safety factor that the COM of path[i] has a part in.
@@ -189,7 +207,7 @@ void make_safer(StepProposals& proposals, std::vector<Node>& path) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     const gaits::Feet feet = path[i].stance().feet;
     const Polygon window = reach_window(feet, proposals.robot().reach_max);
-    Polygon polygon = gaits::oracle_of(scene, feet).equilibrium_polygon(window);
+    Polygon polygon = gaits::oracle_of(scene, feet, proposals.box()).equilibrium_polygon(window);
     if (i + 1 == path.size()) polygon = clip_to_goal(polygon, scene.goal);
     if (polygon.empty()) continue;
     double best = local_safety(scene, path, i, path[i]);

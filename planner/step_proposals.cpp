@@ -36,7 +36,8 @@ Eigen::Vector2d progress_point(const Node& node) {
   return (1 - feet_share) * node.com + feet_share / 2 * (node.feet[a]->position + node.feet[b]->position);
 }
 
-StepProposals::StepProposals(const gaits::Scene& scene) : scene_(&scene), robot_(gaits::drawn_in(scene.robot)) {}
+StepProposals::StepProposals(const gaits::Scene& scene, const stability::DisturbanceBox& box)
+    : scene_(&scene), robot_(gaits::drawn_in(scene.robot)), box_(box) {}
 
 void StepProposals::prepare(const Node& from) {
   if (from.id != 0 && from.id == source_) return;
@@ -76,7 +77,7 @@ bool StepProposals::com_is_legal(const Node& from, const Node& to, const gaits::
   const terrain::Terrain& terrain = scene_->terrain;
   if (!terrain.leg_is_free(to.com, *three[to.free_leg])) return refuse(Rule::leg_visibility);
   if (terrain.distance(from.com, to.com, robot_.clearance) < robot_.clearance) return refuse(Rule::clearance);
-  return gaits::is_stable(*scene_, gaits::oracle_of(*scene_, three), from.com, to.com) ||
+  return gaits::is_stable(*scene_, gaits::oracle_of(*scene_, three, box_), from.com, to.com) ||
          refuse(Rule::transfer_stability);
 }
 
@@ -99,7 +100,7 @@ bool StepProposals::propose(const Node& from, const StepCode& code, Node& to, co
   const Polygon window = reach_window(three, robot_.reach_max);
   if (window.empty()) return refuse(Rule::reach);
   if (!placement_is_legal(from, *foothold)) return false;
-  const auto oracle = gaits::oracle_of(*scene_, two);
+  const auto oracle = gaits::oracle_of(*scene_, two, box_);
   Polygon polygon = oracle.equilibrium_polygon(window);
   if (polygon.empty()) return refuse(Rule::stance_stability);
   if (code[4] < goal_share)
@@ -131,7 +132,7 @@ bool StepProposals::is_legal(const Node& from, const Node& to) {
   if (!placement_is_legal(from, *three[from.free_leg])) return false;
   gaits::Feet two = three;
   two[to.free_leg].reset();
-  if (!gaits::is_stable(*scene_, gaits::oracle_of(*scene_, two), to.com)) return refuse(Rule::stance_stability);
+  if (!gaits::is_stable(*scene_, gaits::oracle_of(*scene_, two, box_), to.com)) return refuse(Rule::stance_stability);
   if (!com_is_legal(from, to, three)) return false;
   ++counts_.legal;
   return true;

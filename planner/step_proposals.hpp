@@ -49,7 +49,9 @@ struct ProposalCounts {
 /// Keeps what one stance offers until another is asked about: one object per search, not for several threads.
 class StepProposals {
  public:
-  explicit StepProposals(const gaits::Scene& scene);
+  explicit StepProposals(const gaits::Scene& scene) : StepProposals(scene, scene.disturbance) {}
+  /// Steps that are stable under other disturbances than the scene's.
+  StepProposals(const gaits::Scene& scene, const stability::DisturbanceBox& box);
 
   /// The step that `code` stands for at `from`; false if a rule is broken. `to` may be `from`. With a target, a step
   /// whose COM is not nearer to it than `nearer_than` is given up before the dear tests (and counts as no rule broken).
@@ -62,6 +64,7 @@ class StepProposals {
   const gaits::Scene& scene() const { return *scene_; }
   /// The robot a little drawn in, which every COM is chosen for (gaits::drawn_in).
   const gaits::Robot& robot() const { return robot_; }
+  const stability::DisturbanceBox& box() const { return box_; }
   const ProposalCounts& counts() const { return counts_; }
   /// A number no other node has.
   std::uint64_t next_id() { return ++last_id_; }
@@ -78,6 +81,7 @@ class StepProposals {
 
   const gaits::Scene* scene_;
   gaits::Robot robot_;
+  stability::DisturbanceBox box_;
   ProposalCounts counts_;
   std::uint64_t last_id_ = 0;
 

@@ -33,8 +33,9 @@ FootholdLattice::Row& FootholdLattice::row_of(int level, const terrain::Segment&
   return rows[index];
 }
 
-/// Level 0 has the ends of the intervals, each further level the middles between what is there; the first and the last
-/// piece have one more, nearer to the end of the segment.
+/// Level 0 has the ends of the intervals, each further level the middles between what is there. Between the outermost and
+/// the end of the segment, each further level has one at half the distance and, once the intervals are shorter than the
+/// inset, as many more as it takes to be no wider apart than they.
 void FootholdLattice::fill(Row& row, int level, const terrain::Segment& segment, const Division& division,
                            std::int64_t piece_number) {
   row.first = static_cast<int>(footholds_.size());
@@ -42,12 +43,21 @@ void FootholdLattice::fill(Row& row, int level, const terrain::Segment& segment,
   const std::int64_t begin = (piece_number * piece) << level;
   const std::int64_t end = std::min((piece_number + 1) * piece, division.intervals) << level;
   const double outer = std::ldexp(division.inset, -level), parts = std::ldexp(static_cast<double>(division.intervals), level);
-  if (level > 0 && piece_number == 0) take(segment, outer);
+  const int fine = level - std::max(0, std::ilogb(spacing_ / division.inset));
+  const std::int64_t parts_of_inset = std::int64_t{1} << std::max(0, fine);
+  const auto within_inset = [&](std::int64_t i) { return std::ldexp(division.inset * static_cast<double>(i), -fine); };
+  if (level > 0 && piece_number == 0) {
+    take(segment, outer);
+    for (std::int64_t i = 3; i < parts_of_inset; i += 2) take(segment, within_inset(i));
+  }
   // The end of a piece is the beginning of the next.
   const std::int64_t to = level == 0 && !last ? end - 1 : end;
   for (std::int64_t i = level > 0 ? begin + 1 : begin; i <= to; i += level > 0 ? 2 : 1)
     take(segment, division.inset + division.inner * static_cast<double>(i) / parts);
-  if (level > 0 && last) take(segment, segment.length - outer);
+  if (level > 0 && last) {
+    for (std::int64_t i = parts_of_inset - 1; i >= 3; i -= 2) take(segment, segment.length - within_inset(i));
+    take(segment, segment.length - outer);
+  }
   row.count = static_cast<int>(footholds_.size()) - row.first;
 }
 

@@ -39,6 +39,11 @@ constexpr double scale_precision = 0.02; ///< relative: a plan safer by less is 
 constexpr double greatest_scale = 1e6;   ///< beyond, a plan bears anything
 constexpr std::uint64_t safety_stall = 60000;  ///< work without progress after which a scale counts as refused
 
+/// Weights of detours and widths of the search, by turns.
+constexpr std::pair<double, int> distance_passes[] = {{1, 8},  {4, 8},   {16, 8},  {1, 32},  {4, 32},
+                                                      {16, 32}, {1, 128}, {4, 128}, {16, 128}};
+constexpr std::uint64_t distance_stall = 200000;  ///< work without progress after which such a search is given up
+
 /// Seeds other than 1: spacings between 0.8 and 1.2 of the standard.
 double spacing_factor(std::uint32_t seed) {
   constexpr double golden = 0.6180339887498949;
@@ -79,7 +84,7 @@ bool AnytimeSearch::begin(double scale) {
     if (scale <= 1 || start_factors_[i] > scale) starts.push_back(starts_[i]);
   scale_ = scale;
   stage_ = 0;
-  layers_ = std::make_unique<LayerSearch>(*proposals_, starts, lattice_, box());
+  layers_ = std::make_unique<LayerSearch>(*proposals_, starts, lattice_, box(), detour_weight_);
   return !starts.empty();
 }
 
@@ -155,6 +160,7 @@ bool AnytimeSearch::improve(std::uint64_t work_more) {
   const std::uint64_t until = work() + work_more;
   if (path_.empty()) return false;
   if (options_.objective == "safety" && !scale_settled_ && improve_safety(until)) return true;
+  if (options_.objective == "distance" && improve_distance(until)) return true;
   return improve_steps(until);
 }
 
@@ -211,6 +217,23 @@ bool AnytimeSearch::improve_safety(std::uint64_t until) {
   scale_settled_ = true;
   begin(std::clamp(factor_ * (1 - 1e-9), 1.0, greatest_scale));
   return false;
+}
+
+/// A lattice after the other whose search shuns detours more or less, each to its first plan. True while that goes on.
+bool AnytimeSearch::improve_distance(std::uint64_t until) {
+  for (; passes_ < std::size(distance_passes) && work() < until && !options_.stop(); ++passes_) {
+    const auto& [weight, width] = distance_passes[passes_];
+    if (!in_pass_) detour_weight_ = weight, begin(1);
+    in_pass_ = true;
+    LayerSearch::Limits now = limits(until);
+    now.width = width;
+    now.stall = distance_stall;
+    const bool found = layers_->run(now) == LayerSearch::End::found;
+    if (found) take(layers_->path());
+    if (!found && (work() >= until || options_.stop())) return true;  // goes on from here
+    in_pass_ = false;
+  }
+  return passes_ < std::size(distance_passes);
 }
 
 std::string AnytimeSearch::cost() const {

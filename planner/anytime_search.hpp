@@ -4,7 +4,8 @@
 //   steps     fewer steps than the best plan so far;
 //   safety    stable under disturbances larger than the scene's, by a factor that is raised and halved towards the
 //             largest that a plan is found for; then fewer steps at that factor;
-//   distance  as for steps, the COM's path then drawn tight, and the shortest kept.
+//   distance  plans whose COMs make few detours, by several weights against progress, their COMs' way then drawn tight; the
+//             shortest way is kept.
 // The lattice gets ever finer until the work is done or memory is full (it ends at 2^-15 of its first spacing, which no
 // memory lets be exhausted): with unlimited work and memory the steps come down to the fewest of any plan that bears its
 // footholds and COMs being moved a little, but for plans that need a swing which only some origin of the free leg allows
@@ -68,6 +69,7 @@ class AnytimeSearch {
   stability::DisturbanceBox box() const;
   bool improve_steps(std::uint64_t until);
   bool improve_safety(std::uint64_t until);
+  bool improve_distance(std::uint64_t until);
   int fewest_steps() const;
   int level() const;
   double least_factor(const std::vector<Node>& path) const;
@@ -88,6 +90,9 @@ class AnytimeSearch {
   double factor_ = 0;           ///< least safety factor of the plan
   double refused_ = 0;          ///< scale for which there is no plan, or none was found
   bool scale_settled_ = false;
+  double detour_weight_ = 0;    ///< of the lattice in use; only for objective distance
+  std::size_t passes_ = 0;      ///< of distance_passes, that are done
+  bool in_pass_ = false;
   int improvements_ = 0;
 };
 

@@ -16,11 +16,12 @@ constexpr int width_factor = 4;  ///< by which the layers before a dead end are 
 }  // namespace
 
 LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& starts, const LatticeResolution& resolution,
-                         const stability::DisturbanceBox& box)
+                         const stability::DisturbanceBox& box, double detour_weight)
     : proposals_(&proposals),
       scene_(&proposals.scene()),
       robot_(proposals.robot()),
       box_(box),
+      detour_weight_(detour_weight),
       lattice_(scene_->terrain, resolution.spacing * robot_.reach_max, resolution.inset * robot_.reach_max),
       coms_(*scene_, lattice_, resolution.columns, box),
       starts_(starts),
@@ -75,8 +76,8 @@ void LayerSearch::push_landing(std::int32_t number, std::int32_t landing, int fi
       is_too_long(layer, landing, pair.second_foot, pair.first_foot))
     return;
   Entry entry{};
-  entry.key = std::min(key_of_step(landing, pair.first_foot, pair.second_foot),
-                       key_of_step(landing, pair.second_foot, pair.first_foot));
+  entry.key = detour_weight_ * node.detour + std::min(key_of_step(landing, pair.first_foot, pair.second_foot),
+                                                      key_of_step(landing, pair.second_foot, pair.first_foot));
   entry.node = number, entry.landing = landing, entry.lifted = -1, entry.pair = -1, entry.last = -1;
   entry.first_level = static_cast<std::int16_t>(first_level), entry.level = static_cast<std::int16_t>(level);
   push(layer, entry);
@@ -92,13 +93,13 @@ void LayerSearch::push_steps(std::size_t k, const Entry& landing) {
     for (const int i : {0, 1}) {
       if (is_too_long(k, landing.landing, feet[i], feet[1 - i])) continue;
       entry.lifted = feet[i];
-      entry.key = key_of_step(landing.landing, feet[i], feet[1 - i]);
+      entry.key = detour_weight_ * node.detour + key_of_step(landing.landing, feet[i], feet[1 - i]);
       push(k, entry);
     }
     if (node.level == 0 || is_too_long(k, feet[0], landing.landing, feet[1])) continue;
     // The leg just placed is lifted again: the COM moves, the support stays. Seldom of use.
     entry.lifted = landing.landing;
-    entry.key = key_of_step(feet[0], landing.landing, feet[1]);
+    entry.key = detour_weight_ * node.detour + key_of_step(feet[0], landing.landing, feet[1]);
     push(k, entry);
   }
 }
@@ -152,7 +153,9 @@ void LayerSearch::reach(std::size_t k, const Entry& entry, std::int32_t number) 
     com.node = static_cast<std::int32_t>(nodes_.size());
     nodes_.push_back({});
   }
-  nodes_[com.node] = {entry.pair, number, entry.node, static_cast<std::int32_t>(k), entry.lifted, -1};
+  SearchNode& node = nodes_[com.node];
+  node = {entry.pair, number, entry.node, static_cast<std::int32_t>(k), entry.lifted, -1};
+  node.detour = detour(entry.node, com);
   layers_[k].nodes.push_back(com.node);
   if (com.to_goal < nearest_.to_goal) nearest_ = com;
   if (const double at = key(com.at, entry.pair); at < front_.key) front_ = {at, k, work()};

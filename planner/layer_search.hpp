@@ -44,8 +44,10 @@ int least_steps(double distance, double reach_max);
 class LayerSearch {
  public:
   /// Steps that are stable under the disturbances of `box`. The starts are legal stances outside the goal.
+  /// With a `detour_weight`, of two stances equally near to the goal that one counts as nearer whose COM has made less of
+  /// a detour, each metre of it by so much.
   LayerSearch(StepProposals& proposals, const std::vector<Node>& starts, const LatticeResolution& resolution,
-              const stability::DisturbanceBox& box);
+              const stability::DisturbanceBox& box, double detour_weight = 0);
 
   static constexpr int no_bound = std::numeric_limits<int>::max();
   struct Limits {
@@ -86,6 +88,7 @@ class LayerSearch {
     std::int32_t old_foot;  ///< where the free leg was lifted from; -1: nowhere
     std::int32_t start;     ///< which of the starts, at layer 0
     int level = -1;         ///< that it was expanded on
+    double detour = 0;      ///< what the COM's way so far has been longer than it came nearer to the goal [m]
     bool swings_any_way = false;  ///< set when it is expanded
   };
   /// Steps from a stance that land at one place: first all of them, the landing not yet looked at; then, by the leg that
@@ -145,6 +148,7 @@ class LayerSearch {
   std::optional<gaits::Rule> broken_placement_rule(const SearchNode& node, std::int32_t landing);
   void refuse(gaits::Rule rule, const SearchNode& node);
   const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }
+  double detour(std::int32_t node, const ComCandidates::Com& to) const;  ///< [m]
   ToGoal to_goal(const Eigen::Vector2d& com, std::int32_t pair) const;
   double key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
   double key_of_step(std::int32_t landing, std::int32_t lifted, std::int32_t kept) const;  ///< [m]
@@ -153,6 +157,7 @@ class LayerSearch {
   const gaits::Scene* scene_;
   gaits::Robot robot_;
   stability::DisturbanceBox box_;
+  double detour_weight_;
   FootholdLattice lattice_;
   ComCandidates coms_;
   std::vector<Node> starts_;

@@ -33,6 +33,13 @@ int least_steps(double distance, double reach_max) {
   return least_steps({distance, distance - reach_max, distance - reach_max}, reach_max);
 }
 
+double LayerSearch::detour(std::int32_t number, const ComCandidates::Com& to) const {
+  if (detour_weight_ == 0) return 0;
+  const SearchNode& node = nodes_[number];
+  const auto& from = coms_.com(node.com);
+  return node.detour + (to.at - from.at).norm() + to.to_goal - from.to_goal;
+}
+
 ToGoal LayerSearch::to_goal(const Vector2d& com, std::int32_t number) const {
   const auto& pair = coms_[number];
   return {scene_->goal.distance(com), pair.rear, pair.front};
@@ -148,7 +155,7 @@ void LayerSearch::try_coms(std::size_t k, Entry entry, const Limits& limits) {
         layer + least_steps({com.to_goal, feet.rear, feet.front}, robot_.reach_max) >= limits.below)
       return;  // so are those behind it
     if (!feet_reach(entry, com.at)) continue;
-    if (const double true_key = key(com.at, entry.pair); true_key > entry.key) {
+    if (const double true_key = key(com.at, entry.pair) + detour_weight_ * detour(entry.node, com); true_key > entry.key) {
       entry.key = true_key;
       return put_back(k, entry);
     }

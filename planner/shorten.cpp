@@ -160,6 +160,22 @@ double way_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eig
   return (b - a).norm() + (c - b).norm();
 }
 
+/// The first COM, if it is open, towards the second.
+double straighten_start(StepProposals& proposals, std::vector<Node>& path) {
+  const gaits::Scene& scene = proposals.scene();
+  if (scene.start.com) return 0;
+  for (const double part : {1.0, 0.5, 0.25, 0.1}) {
+    Node moved = path[0];
+    moved.com += part * (path[1].com - moved.com);
+    moved.id = proposals.next_id();
+    if (gaits::broken_start_rule(scene, moved.stance()) || !proposals.is_legal(moved, path[1])) continue;
+    const double gained = (moved.com - path[0].com).norm();
+    path[0] = moved;
+    return gained;
+  }
+  return 0;
+}
+
 /// Each COM towards the line between its neighbours: to its middle, to where it is nearest, or a part of the way there.
 /// The last towards the one before it. Ends where a sweep gains next to nothing.
 void straighten(StepProposals& proposals, std::vector<Node>& path) {
@@ -167,7 +183,7 @@ void straighten(StepProposals& proposals, std::vector<Node>& path) {
   constexpr double worth_while = 1e-4;  // of the way
   Node moved;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    double way = 0, gained = 0;
+    double way = 0, gained = straighten_start(proposals, path);
     for (std::size_t i = 1; i < path.size(); ++i) {
       const Eigen::Vector2d &before = path[i - 1].com, &here = path[i].com;
       const Eigen::Vector2d after = i + 1 < path.size() ? path[i + 1].com : before, line = after - before;

@@ -37,6 +37,8 @@ constexpr Stage stage_at(std::size_t number, bool companion) {
 constexpr double first_raise = 1.5;      ///< of the disturbances beyond what the plan bears, while that succeeds
 constexpr double scale_precision = 0.02; ///< relative: a plan safer by less is not looked for
 constexpr double greatest_scale = 1e6;   ///< beyond, a plan bears anything
+constexpr std::size_t safety_stages[] = {0, 2, 3, 4};  ///< of the searches for a scale, round after round
+constexpr std::uint64_t safety_work = 200000;  ///< after which no further round begins
 constexpr std::uint64_t safety_stall = 60000;  ///< work without progress after which a scale counts as refused
 
 /// Weights of detours and widths of the search, by turns.
@@ -68,9 +70,10 @@ AnytimeSearch::AnytimeSearch(StepProposals& proposals, std::vector<Node> starts,
     for (const Node& start : starts_) {
       const auto oracle = gaits::oracle_of(scene, start.stance().feet);
       start_factors_.push_back(gaits::safety_factor(scene, oracle, start.com).value);
-      refused_ = std::max(refused_, start_factors_.back());  // no plan is safer than its first stance
+      most_allowed_ = std::max(most_allowed_, start_factors_.back());  // no plan is safer than its first stance
     }
   }
+  refused_ = most_allowed_;
   begin(1);
 }
 
@@ -198,16 +201,23 @@ bool AnytimeSearch::improve_safety(std::uint64_t until) {
   while (!nothing_to_scale && factor_ < greatest_scale && work() < until && !options_.stop()) {
     if (!trial_) {
       const double base = std::max(factor_, 1.0);
-      if (refused_ < base * (1 + scale_precision)) break;
+      if (refused_ < base * (1 + scale_precision)) {
+        // Refused to a narrow search: is it to a wider one, as far as the first stances allow?
+        if (most_allowed_ < base * (1 + scale_precision) || round_ + 1 == std::size(safety_stages) || work() > safety_work)
+          break;
+        refused_ = most_allowed_;
+        ++round_;
+      }
       trial_ = std::min(std::sqrt(base * refused_), first_raise * base);
       if (!begin(*trial_)) {
         refused_ = *trial_;
         trial_.reset();
         continue;
       }
+      stage_ = safety_stages[round_];
     }
     LayerSearch::Limits now = limits(until);
-    now.stall = safety_stall;
+    now.stall = safety_stall << round_;
     const bool found = layers_->run(now) == LayerSearch::End::found && take(layers_->path());
     if (!found && (work() >= until || options_.stop())) return true;  // goes on from here
     if (!found) refused_ = *trial_;

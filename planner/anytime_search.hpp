@@ -89,6 +89,8 @@ class AnytimeSearch {
   std::optional<double> trial_; ///< scale that a plan is being looked for
   double factor_ = 0;           ///< least safety factor of the plan
   double refused_ = 0;          ///< scale for which there is no plan, or none was found
+  double most_allowed_ = 0;     ///< scale that no first stance bears
+  std::size_t round_ = 0;       ///< of searches for a scale, each wider
   bool scale_settled_ = false;
   double detour_weight_ = 0;    ///< of the lattice in use; only for objective distance
   std::size_t passes_ = 0;      ///< of distance_passes, that are done

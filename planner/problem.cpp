@@ -17,6 +17,7 @@ namespace {
 
 constexpr int com_samples = 400;         ///< COMs tried per pair of start feet
 constexpr int goal_samples = 200;        ///< of these, drawn from the goal where the start feet reach it
+constexpr int most_moves = 60;           ///< of the safest of these towards where it is safest
 constexpr std::size_t keep_per_pair = 3; ///< first stances handed to the search per pair of start feet
 constexpr int first_step_tries = 64;     ///< codes tried to see whether a first step exists
 constexpr std::uint64_t goal_pairs = 30000;
@@ -101,13 +102,14 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   }
   const Polygon in_goal = clip_to_goal(polygon, scene.goal);
   std::vector<std::pair<double, Node>> found;
-  for (int k = in_goal.empty() ? goal_samples : 0; k < goal_samples + com_samples; ++k) {
-    stance.com = point_in(k < goal_samples ? in_goal : polygon, spread(k, 0), spread(k, 1));
+  const auto may_stand = [&](const Vector2d& com) {
+    stance.com = com;
     const auto& robot = proposals.robot();
-    if (!gaits::within_reach(robot, stance.feet, stance.com, stance.com)) continue;
-    if (!gaits::is_stable(scene, oracle, stance.com)) continue;
-    if (scene.terrain.distance(stance.com, robot.clearance) < robot.clearance) continue;
-    if (gaits::broken_start_rule(scene, stance)) continue;
+    return gaits::within_reach(robot, stance.feet, com, com) && gaits::is_stable(scene, oracle, com) &&
+           scene.terrain.distance(com, robot.clearance) >= robot.clearance && !gaits::broken_start_rule(scene, stance);
+  };
+  for (int k = in_goal.empty() ? goal_samples : 0; k < goal_samples + com_samples; ++k) {
+    if (!may_stand(point_in(k < goal_samples ? in_goal : polygon, spread(k, 0), spread(k, 1)))) continue;
     const Node node = node_of(scene, stance, proposals);
     if (scene.goal.contains(node.com)) {
       choice.nodes.insert(choice.nodes.begin(), node);
@@ -116,9 +118,25 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
     found.emplace_back(gaits::safety_factor(scene, oracle, stance.com).value, node);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  // No plan is safer than its first stance: the safest is moved to where it is safest still.
+  const auto make_safest = [&](std::pair<double, Node>& best) {
+    const double reach = scene.robot.reach_max;
+    double step = reach / 8;
+    for (int move = 0; step > reach / 2000 && move < most_moves; ++move) {
+      const Vector2d centre = best.second.com;
+      for (const Vector2d& way : {Vector2d(step, 0), Vector2d(-step, 0), Vector2d(0, step), Vector2d(0, -step)}) {
+        if (!may_stand(centre + way)) continue;
+        const double factor = gaits::safety_factor(scene, oracle, stance.com).value;
+        if (!(factor > best.first)) continue;
+        if (const Node node = node_of(scene, stance, proposals); has_first_step(proposals, node)) best = {factor, node};
+      }
+      if (best.second.com == centre) step /= 2;
+    }
+  };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < found.size() && kept < keep_per_pair; ++i) {
     if (!has_first_step(proposals, found[i].second)) continue;
+    if (kept == 0) make_safest(found[i]);
     choice.nodes.push_back(found[i].second);
     ++kept;
   }

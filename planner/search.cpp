@@ -166,7 +166,7 @@ class Search {
   }
 
   std::vector<Node> search_layers(const StartChoice& start) {
-    const std::vector<Node> starts = options_.objective == "distance" ? all_of(start) : start.nodes;
+    const std::vector<Node>& starts = start.nodes;
     std::atomic<bool> proven = false;
     const AnytimeSearch* running = nullptr;
     AnytimeOptions anytime{.seed = options_.seed, .objective = options_.objective};
@@ -204,14 +204,9 @@ class Search {
     search.offer(other.get());
   }
 
-  static std::vector<Node> all_of(const StartChoice& start) {
-    std::vector<Node> nodes = start.nodes;
-    nodes.insert(nodes.end(), start.nearest.begin(), start.nearest.end());
-    return nodes;
-  }
-
   std::vector<Node> search_elsewhere(const StartChoice& start, std::uint64_t work) const {
-    const std::vector<Node> starts = all_of(start);
+    std::vector<Node> starts = start.nodes;
+    starts.insert(starts.end(), start.nearest.begin(), start.nearest.end());
     StepProposals proposals(scene_);
     const AnytimeOptions anytime{turn_seed(options_.seed, 1), options_.objective, true, [this] { return stopped(); }};
     AnytimeSearch search(proposals, starts, anytime);

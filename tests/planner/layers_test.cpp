@@ -1,8 +1,11 @@
 // The planner Layers: its lattice, its bounds, its plans, and its place among OMPL's planners. (Its plans against those of
 // an exhaustive search: bench/exhaustive.cpp.)
+#include <sched.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 #include "gaits/rules.hpp"
@@ -178,6 +181,18 @@ TEST_CASE("improving keeps a plan that holds and never makes it longer", "[layer
   CHECK(search.path().size() - 1 <= 7);
 }
 
+TEST_CASE("shares of refusals by rule, and the square with most of them", "[layers]") {
+  using gaits::Rule;
+  Refusals refusals(0.5);
+  CHECK(refusals.summary() == "0 landings and steps refused");
+  for (int i = 0; i < 6; ++i) refusals.add(Rule::reach, {1.2, -0.1});
+  for (int i = 0; i < 2; ++i) refusals.add(Rule::swing, {1.3, -0.4});
+  for (int i = 0; i < 2; ++i) refusals.add(Rule::swing, {0.7, 0.1});
+  CHECK(refusals.summary() ==
+        "10 landings and steps refused: reach 60 %, swing 40 %; most of them (80 %) with the COM between (1, -0.5) and "
+        "(1.5, 0): reach 75 %, swing 25 %");
+}
+
 TEST_CASE("the safest plan is much safer than the shortest where the terrain allows", "[layers]") {
   const gaits::Scene scene = gaits::parse_scene(scene_text(steps, 2.2), "steps");
   SearchOptions options;
@@ -211,6 +226,54 @@ TEST_CASE("an interrupted search ends with the best plan so far", "[layers]") {
   const gaits::Plan plan = search(scene, options);
   require_holds(scene, plan);
   CHECK(asked < 2200);  // it was not asked on and on
+}
+
+TEST_CASE("the plan is the same on one processor and on all", "[layers]") {
+  const std::string objective = GENERATE("steps", "safety", "distance");
+  const gaits::Scene scene = gaits::parse_scene(scene_text(steps, 2.6), "steps");
+  SearchOptions options;
+  options.objective = objective;
+  options.effort = 0.15;
+  options.time_limit = 1e6;
+  const gaits::Plan on_all = search(scene, options);
+  cpu_set_t all, one;
+  REQUIRE(sched_getaffinity(0, sizeof all, &all) == 0);
+  CPU_ZERO(&one);
+  for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
+  REQUIRE(sched_setaffinity(0, sizeof one, &one) == 0);  // threads inherit it
+  const gaits::Plan on_one = search(scene, options);
+  REQUIRE(sched_setaffinity(0, sizeof all, &all) == 0);
+  require_holds(scene, on_all);
+  REQUIRE(on_one.stances.size() == on_all.stances.size());
+  for (std::size_t k = 0; k < on_all.stances.size(); ++k) {
+    CHECK(on_one.stances[k].com == on_all.stances[k].com);
+    for (int leg = 0; leg < gaits::leg_count; ++leg) {
+      const auto &a = on_one.stances[k].feet[leg], &b = on_all.stances[k].feet[leg];
+      REQUIRE(a.has_value() == b.has_value());
+      if (a) CHECK(a->s == b->s);
+    }
+  }
+}
+
+TEST_CASE("a search that finds nothing says how far it came and what refused its steps", "[layers]") {
+  // A gap of 1.9 m, wider than two reaches.
+  const std::string gap = "[[-1, 0], [1, 0], [1, -3], [2.9, -3], [2.9, 0], [5, 0]]";
+  const gaits::Scene scene = gaits::parse_scene(scene_text(gap, 3.6), "gap");
+  SearchOptions options;
+  options.planner = "Layers";
+  options.prove = false;
+  const gaits::Plan plan = search(scene, options);
+  REQUIRE(plan.status == gaits::Status::no_plan_found);
+  CAPTURE(plan.reason);
+  double x = 0, y = 0, left = 0;
+  const auto at = plan.reason.find("Layers came to (");
+  REQUIRE(at != std::string::npos);
+  REQUIRE(std::sscanf(plan.reason.c_str() + at, "Layers came to (%lf, %lf), %lf m", &x, &y, &left) == 3);
+  CHECK(x > 0.5);   // near the edge
+  CHECK(x < 1.9);   // and not beyond the reach of the ground before it
+  CHECK(left == Approx(3.6 - x).margin(0.01));
+  CHECK_THAT(plan.reason, Catch::Contains("landings and steps refused: ") && Catch::Contains("%) with the COM between ("));
 }
 
 TEST_CASE("a plan is found where the swing of a leg depends on where it was lifted", "[layers]") {

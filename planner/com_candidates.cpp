@@ -34,6 +34,13 @@ bool cut(const Polygon& polygon, double x, double& low, double& high) {
   return met;
 }
 
+/// Stable. Mostly few, and in the order wanted or the reverse.
+template <class Item>
+void nearest_first(std::vector<Item>& items) {
+  const auto nearer = [](const Item& a, const Item& b) { return a.to_goal < b.to_goal; };
+  if (!std::is_sorted(items.begin(), items.end(), nearer)) std::stable_sort(items.begin(), items.end(), nearer);
+}
+
 /// The part of a column within reach of a foot.
 bool within_reach(const Vector2d& foot, double reach, double x, double& low, double& high) {
   const double d = x - foot.x(), square = reach * reach - d * d;
@@ -98,8 +105,7 @@ std::int32_t ComCandidates::make_shape(const Pair& pair) {
     shape.in_goal = clip_to_goal(shape.whole, scene_->goal);
   list_columns(pair.level, shape.whole, false, shape.columns);
   if (!shape.in_goal.empty()) list_columns(pair.level, shape.in_goal, true, shape.columns);
-  std::stable_sort(shape.columns.begin(), shape.columns.end(),
-                   [](const Column& a, const Column& b) { return a.to_goal < b.to_goal; });
+  nearest_first(shape.columns);
   std::reverse(shape.columns.begin(), shape.columns.end());
   if (free_shapes_.empty()) {
     shapes_.push_back(std::move(shape));
@@ -134,7 +140,7 @@ void ComCandidates::make_coms(Pair& pair) {
     shape.columns.pop_back();
     fill_column(pair.level, feet, column.in_goal ? shape.in_goal : shape.whole, column.x);
   } while (!shape.columns.empty() && (fresh_.empty() || scene_->goal.com_y));
-  std::stable_sort(fresh_.begin(), fresh_.end(), [](const Com& a, const Com& b) { return a.to_goal < b.to_goal; });
+  if (scene_->goal.com_y) nearest_first(fresh_);  // otherwise those of a column are equally near
   for (const Com& com : fresh_) {
     const auto number = static_cast<std::int32_t>(coms_.size());
     (pair.last < 0 ? pair.first : coms_[static_cast<std::size_t>(pair.last)].after) = number;

@@ -39,7 +39,7 @@ constexpr std::uint64_t stall_before_proof = 150'000;  ///< without progress: th
 constexpr std::uint64_t greatest_stall = 1'500'000;
 // Relative to reach_max: a way from the start beyond which barriers are looked for near its end first, and how far there.
 constexpr double long_way = 20, window_widths[] = {4, 10};
-constexpr std::uint64_t usual_improvement = 1'000'000;
+constexpr std::uint64_t usual_improvement = 1'000'000, dear = 6;
 
 std::vector<Turn> turns_of(const std::string& planner) {
   if (planner == "auto") return {std::begin(auto_turns), std::end(auto_turns)};
@@ -191,8 +191,9 @@ class Search {
   /// Betters the plan, in slices and telling the best so far in between; beside it a second search with another lattice
   /// does the same, and the better plan is kept.
   void improve(AnytimeSearch& search, const StartChoice& start) {
-    // A first plan that was dear (long terrain) has had its share of the work.
-    const std::uint64_t spent = std::min(2 * search.work(), usual_improvement);
+    // A first plan that was dear (long terrain) has had its share of the work: with less than this left, the next wider
+    // pass over all of it is cut off before it betters anything.
+    const std::uint64_t spent = std::min(dear * search.work(), usual_improvement);
     const double usual = static_cast<double>(usual_improvement);
     const auto work = static_cast<std::uint64_t>(
         std::clamp(options_.effort * usual - static_cast<double>(spent), 0.0, 1e18));

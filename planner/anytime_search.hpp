@@ -4,12 +4,13 @@
 //   steps     fewer steps than the best plan so far;
 //   safety    stable under disturbances larger than the scene's, by a factor that is raised and halved towards the
 //             largest that a plan is found for; then fewer steps at that factor;
-//   distance  plans whose COMs make few detours, by several weights against progress, their COMs' way then drawn tight; the
-//             shortest way is kept.
+//   distance  plans whose COMs make few detours, by several weights against progress, their COMs' way then drawn tight;
+//             the shortest is kept.
 // The lattice gets ever finer until the work is done or memory is full (it ends at 2^-15 of its first spacing, which no
-// memory lets be exhausted): with unlimited work and memory the steps come down to the fewest of any plan that bears its
-// footholds and COMs being moved a little, but for plans that need a swing which only some origin of the free leg allows
-// (of stances that differ in nothing else the first is kept).
+// memory lets be exhausted). With unlimited work and memory the steps come down to the fewest of any plan that bears its
+// footholds and COMs being moved a little, except that three things are never tried: COMs within a fiftieth of the height
+// of R_SS(W) at its lower and upper end, open first COMs but a few, and swings that only another origin of the free leg
+// than the first one found would allow. That is why nothing is called optimal but by a bound (Resolution).
 // Deterministic for a seed: limits are counted in work, not in time.
 #pragma once
 

@@ -1,8 +1,8 @@
 // For each pair of footholds, once: the COMs that a search tries on it. They lie on columns across R_SS(W) within reach
-// of both feet, from as low as clearance allows to the top. Where the goal can be reached from the pair, there are columns inside it as well.
-// Levels: each has twice the columns and more heights than the one before, none of them twice. The columns nearest to
-// the goal are made first, the others when they are asked for: most never are. So it is with the rules of a stance
-// (gaits/rules.hpp, with the robot a little drawn in): holds() asks them.
+// of both feet, from as low as clearance allows to the top. Where the goal can be reached from the pair, there are
+// columns inside it as well. Levels: each has twice the columns and more heights than the one before, none of them twice.
+// The columns nearest to the goal are made first, the others when they are asked for: most never are. So it is with the
+// rules of a stance (gaits/rules.hpp, with the robot a little drawn in): holds() asks them.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // Footholds at even steps of arc length in nested levels, each twice as dense, made where a search comes by: segment by
-// segment, long ones piece by piece. Every segment has one near each end, where a gap or a riser is crossed best, and evenly spaced ones
-// between. Same arguments, same footholds, whatever the order of the questions; their numbers depend on that order.
+// segment, long ones piece by piece. Every segment has one near each end, where a gap or a riser is crossed best, and
+// evenly spaced ones between. Same arguments, same footholds, whatever the order of the questions; their numbers depend
+// on that order.
 #pragma once
 
 #include <array>

@@ -70,7 +70,8 @@ class LayerSearch {
   Eigen::Vector2d best() const { return nearest_.at; }
   /// Landings, and steps with all their COMs, that were refused while there was no plan.
   const Refusals& refusals() const { return refusals_; }
-  /// Landings and steps checked, COMs asked about, eighths for steps noted and COMs passed over: about a microsecond each. The same on every machine.
+  /// Landings and steps checked, COMs asked about, eighths for steps noted and COMs passed over: about a microsecond
+  /// each. The same on every machine.
   std::uint64_t work() const { return checked_ + coms_.asked() + (entries_ + scanned_) / 8; }
   std::size_t stances() const { return nodes_.size(); }
   /// As many steps wait as memory allows: the search goes on no more.

@@ -65,8 +65,9 @@ int main(int count, char** words) {
   app.add_option("SCENE", scenes, "scene files")->required();
   app.add_option("--seeds", seeds, "1, 2, ... so many");
   CLI11_PARSE(app, count, words);
-  fmt::print("| scene | verified | steps | load, ms CPU | search | verification | whole | whole, slowest | whole, wall |\n"
-             "|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| scene | verified | steps | load, ms CPU | search | verification | whole | whole, slowest | whole, wall |\n"
+      "|---|---|---|---|---|---|---|---|---|\n");
   bool all = true;
   for (const std::string& file : scenes) {
     Row row;

@@ -205,8 +205,8 @@ void Checks::check_line_stability(const std::string& place, const Posture& feet,
   check_factor(Rule::transfer_stability, place, stated, sigma);
 }
 
-// A second look at what the straight-line test says, by the verdicts at points: for the box, and for the box as large as
-// the least factor says it may grow (what holds for a box holds for every smaller one).
+// A second look at what the straight-line test says, by the verdicts at points: for the box, and for the box as large
+// as the least factor says it may grow (what holds for a box holds for every smaller one).
 void Checks::sample_line(const std::string& place, const Posture& feet, const Point& from, const Point& to,
                          double least_factor, bool certified) {
   const RobustOracle oracle = oracle_of_feet(feet, 1);

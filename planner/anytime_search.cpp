@@ -17,12 +17,12 @@ namespace {
 struct Stage {
   int width, level;
 };
-/// Measured on the canned scenes: the first gives a plan in milliseconds; most of what a second of work finds comes from
-/// the wide passes over coarse levels.
-constexpr Stage usual_stages[] = {{4, 0},   {8, 0},    {32, 0},  {128, 1},  {512, 1},  {256, 2},
+/// Measured on the canned scenes: the first gives a plan in milliseconds; most of what a second of work finds comes
+/// from the wide passes over coarse levels.
+constexpr Stage usual_stages[] = {{4, 0},    {8, 0},   {32, 0},   {128, 1},  {512, 1},  {256, 2},
                                   {1024, 2}, {512, 3}, {4096, 2}, {2048, 3}, {8192, 3}, {4096, 4}};
 /// Of the companion: finer sooner, which some plans over small footholds need.
-constexpr Stage companion_stages[] = {{4, 0},   {16, 0}, {64, 0},  {32, 1},   {128, 1},  {64, 2},
+constexpr Stage companion_stages[] = {{4, 0},   {16, 0},  {64, 0},  {32, 1},   {128, 1},  {64, 2},
                                       {256, 2}, {128, 3}, {512, 3}, {1024, 2}, {8192, 3}, {4096, 4}};
 constexpr std::size_t limited_stages = std::size(usual_stages);
 static_assert(std::size(companion_stages) == limited_stages);
@@ -38,11 +38,11 @@ constexpr double first_raise = 1.5;      ///< of the disturbances beyond what th
 constexpr double scale_precision = 0.02; ///< relative: a plan safer by less is not looked for
 constexpr double greatest_scale = 1e6;   ///< beyond, a plan bears anything
 constexpr std::size_t safety_stages[] = {0, 2, 3, 4};  ///< of the searches for a scale, round after round
-constexpr std::uint64_t safety_work = 200000;  ///< after which no further round begins
+constexpr std::uint64_t safety_work = 200000;          ///< after which no further round begins
 constexpr std::uint64_t safety_stall = 60000;  ///< work without progress after which a scale counts as refused
 
 /// Weights of detours and widths of the search, by turns.
-constexpr std::pair<double, int> distance_passes[] = {{1, 8},  {4, 8},   {16, 8},  {1, 32},  {4, 32},
+constexpr std::pair<double, int> distance_passes[] = {{1, 8},   {4, 8},   {16, 8},  {1, 32},  {4, 32},
                                                       {16, 32}, {1, 128}, {4, 128}, {16, 128}};
 constexpr std::uint64_t distance_stall = 200000;  ///< work without progress after which such a search is given up
 
@@ -203,7 +203,8 @@ bool AnytimeSearch::improve_safety(std::uint64_t until) {
       const double base = std::max(factor_, 1.0);
       if (refused_ < base * (1 + scale_precision)) {
         // Refused to a narrow search: is it to a wider one, as far as the first stances allow?
-        if (most_allowed_ < base * (1 + scale_precision) || round_ + 1 == std::size(safety_stages) || work() > safety_work)
+        if (most_allowed_ < base * (1 + scale_precision) || round_ + 1 == std::size(safety_stages) ||
+            work() > safety_work)
           break;
         refused_ = most_allowed_;
         ++round_;

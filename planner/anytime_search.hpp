@@ -7,10 +7,10 @@
 //   distance  plans whose COMs make few detours, by several weights against progress, their COMs' way then drawn tight;
 //             the shortest is kept.
 // The lattice gets ever finer until the work is done or memory is full (it ends at 2^-15 of its first spacing, which no
-// memory lets be exhausted). With unlimited work and memory the steps come down to the fewest of any plan that bears its
-// footholds and COMs being moved a little, except that three things are never tried: COMs within a fiftieth of the height
-// of R_SS(W) at its lower and upper end, open first COMs but a few, and swings that only another origin of the free leg
-// than the first one found would allow. That is why nothing is called optimal but by a bound (Resolution).
+// memory lets be exhausted). With unlimited work and memory the steps come down to the fewest of any plan that bears
+// its footholds and COMs being moved a little, except that three things are never tried: COMs within a fiftieth of the
+// height of R_SS(W) at its lower and upper end, open first COMs but a few, and swings that only another origin of the
+// free leg than the first one found would allow. That is why nothing is called optimal but by a bound (Resolution).
 // Deterministic for a seed: limits are counted in work, not in time.
 #pragma once
 
@@ -31,7 +31,8 @@ namespace surefoot::planner {
 struct AnytimeOptions {
   std::uint32_t seed = 1;           ///< 1 is the standard lattice, others are up to a fifth finer or coarser
   std::string objective = "steps";  ///< steps, safety or distance
-  /// Beside another search: finer sooner, and COMs are left on their columns. Where one misses a plan, the other may not.
+  /// Beside another search: finer sooner, and COMs are left on their columns. Where one misses a plan, the other may
+  /// not.
   bool companion = false;
   /// Asked now and then; true ends the search with what it has.
   std::function<bool()> stop = [] { return false; };
@@ -87,14 +88,14 @@ class AnytimeSearch {
   int finest_ = 0;              ///< level begun
   int exhausted_level_ = -1;    ///< level on which no plan of fewer steps exists
   double scale_ = 1;            ///< of the disturbances on the lattice in use
-  std::optional<double> trial_; ///< scale that a plan is being looked for
+  std::optional<double> trial_;  ///< scale that a plan is being looked for
   double factor_ = 0;           ///< least safety factor of the plan
   double refused_ = 0;          ///< scale for which there is no plan, or none was found
   double most_allowed_ = 0;     ///< scale that no first stance bears
   std::size_t round_ = 0;       ///< of searches for a scale, each wider
   bool scale_settled_ = false;
-  double detour_weight_ = 0;    ///< of the lattice in use; only for objective distance
-  std::size_t passes_ = 0;      ///< of distance_passes, that are done
+  double detour_weight_ = 0;  ///< of the lattice in use; only for objective distance
+  std::size_t passes_ = 0;    ///< of distance_passes, that are done
   bool in_pass_ = false;
   int improvements_ = 0;
 };

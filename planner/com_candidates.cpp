@@ -57,7 +57,8 @@ ComCandidates::ComCandidates(const gaits::Scene& scene, const FootholdLattice& l
     : scene_(&scene), lattice_(&lattice), robot_(gaits::drawn_in(scene.robot)), columns_(columns), box_(box) {}
 
 ComCandidates::Pair ComCandidates::made(int foot, int other, int level) const {
-  const double a = scene_->goal.distance((*lattice_)[foot].position), b = scene_->goal.distance((*lattice_)[other].position);
+  const double a = scene_->goal.distance((*lattice_)[foot].position),
+               b = scene_->goal.distance((*lattice_)[other].position);
   return {std::min(foot, other), std::max(foot, other), level, std::max(a, b), std::min(a, b)};
 }
 
@@ -161,8 +162,8 @@ bool ComCandidates::holds(int number, std::int32_t of_com) {
   if (scene_->terrain.distance(com.at, robot_.clearance) < robot_.clearance)
     com.verdict = Verdict::too_near;
   else
-    com.verdict = gaits::is_stable(*scene_, gaits::oracle_of(*scene_, feet, box_), com.at) ? Verdict::holds
-                                                                                          : Verdict::unstable;
+    com.verdict =
+        gaits::is_stable(*scene_, gaits::oracle_of(*scene_, feet, box_), com.at) ? Verdict::holds : Verdict::unstable;
   return com.verdict == Verdict::holds;
 }
 

@@ -1,8 +1,8 @@
 // For each pair of footholds, once: the COMs that a search tries on it. They lie on columns across R_SS(W) within reach
 // of both feet, from as low as clearance allows to the top. Where the goal can be reached from the pair, there are
-// columns inside it as well. Levels: each has twice the columns and more heights than the one before, none of them twice.
-// The columns nearest to the goal are made first, the others when they are asked for: most never are. So it is with the
-// rules of a stance (gaits/rules.hpp, with the robot a little drawn in): holds() asks them.
+// columns inside it as well. Levels: each has twice the columns and more heights than the one before, none of them
+// twice. The columns nearest to the goal are made first, the others when they are asked for: most never are. So it is
+// with the rules of a stance (gaits/rules.hpp, with the robot a little drawn in): holds() asks them.
 #pragma once
 
 #include <cstdint>
@@ -20,19 +20,19 @@ class ComCandidates {
  public:
   enum class Verdict : std::int8_t { open, holds, too_near, unstable };  ///< too near the terrain
   struct Com {
-    Eigen::Vector2d at;                ///< [m]
-    double to_goal = 0;                ///< [m]
-    std::int32_t node = -1;            ///< for the search's own use
-    std::int32_t after = -1;           ///< the next of its pair; -1: none made yet
+    Eigen::Vector2d at;       ///< [m]
+    double to_goal = 0;       ///< [m]
+    std::int32_t node = -1;   ///< for the search's own use
+    std::int32_t after = -1;  ///< the next of its pair; -1: none made yet
     Verdict verdict = Verdict::open;
   };
   struct Pair {
     int first_foot = 0, second_foot = 0;  ///< numbers in the lattice, the lower first
     int level = 0;
-    double rear = 0, front = 0;           ///< the farther and the nearer foot from the goal [m]
-    std::int32_t first = -1, last = -1;   ///< of its COMs made so far
-    bool balances = false;                ///< R_SS(W) is not empty within reach
-    std::int32_t shape = -1;              ///< what more are made from; -1: there are no more
+    double rear = 0, front = 0;          ///< the farther and the nearer foot from the goal [m]
+    std::int32_t first = -1, last = -1;  ///< of its COMs made so far
+    bool balances = false;               ///< R_SS(W) is not empty within reach
+    std::int32_t shape = -1;             ///< what more are made from; -1: there are no more
   };
 
   ComCandidates(const gaits::Scene& scene, const FootholdLattice& lattice, int columns,

@@ -33,16 +33,17 @@ FootholdLattice::Row& FootholdLattice::row_of(int level, const terrain::Segment&
   return rows[index];
 }
 
-/// Level 0 has the ends of the intervals, each further level the middles between what is there. Between the outermost and
-/// the end of the segment, each further level has one at half the distance and, once the intervals are shorter than the
-/// inset, as many more as it takes to be no wider apart than they.
+/// Level 0 has the ends of the intervals, each further level the middles between what is there. Between the outermost
+/// and the end of the segment, each further level has one at half the distance and, once the intervals are shorter than
+/// the inset, as many more as it takes to be no wider apart than they.
 void FootholdLattice::fill(Row& row, int level, const terrain::Segment& segment, const Division& division,
                            std::int64_t piece_number) {
   row.first = static_cast<int>(footholds_.size());
   const bool last = (piece_number + 1) * piece >= division.intervals;
   const std::int64_t begin = (piece_number * piece) << level;
   const std::int64_t end = std::min((piece_number + 1) * piece, division.intervals) << level;
-  const double outer = std::ldexp(division.inset, -level), parts = std::ldexp(static_cast<double>(division.intervals), level);
+  const double outer = std::ldexp(division.inset, -level),
+               parts = std::ldexp(static_cast<double>(division.intervals), level);
   const int fine = level - std::max(0, std::ilogb(spacing_ / division.inset));
   const std::int64_t parts_of_inset = std::int64_t{1} << std::max(0, fine);
   const auto within_inset = [&](std::int64_t i) { return std::ldexp(division.inset * static_cast<double>(i), -fine); };
@@ -67,7 +68,8 @@ void FootholdLattice::list(int level, std::vector<int>& numbers) {
     const terrain::Segment& segment = *stretch.segment;
     const Division division = divide(segment);
     const auto piece_at = [&](double s) {
-      const double at = (s - segment.s_begin - division.inset) / division.inner * static_cast<double>(division.intervals);
+      const double at =
+          (s - segment.s_begin - division.inset) / division.inner * static_cast<double>(division.intervals);
       return std::clamp<std::int64_t>(static_cast<std::int64_t>(at), 0, division.intervals - 1) / piece;
     };
     // What rounding puts into a neighbouring piece is missed: a foothold at the very end of reach.

@@ -44,7 +44,7 @@ class FootholdLattice {
   };
   /// How a segment is divided on level 0.
   struct Division {
-    double inset, inner;     ///< [m]
+    double inset, inner;  ///< [m]
     std::int64_t intervals;
   };
   Division divide(const terrain::Segment& segment) const;

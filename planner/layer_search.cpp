@@ -125,8 +125,8 @@ void LayerSearch::expand(std::int32_t number, int level, int below) {
   }
 }
 
-/// Takes the best entry of a layer: gives it up, finds it to be less good than it seemed and puts it back, or checks its
-/// landing or a step; if that is legal, it leads to a new stance of the layer.
+/// Takes the best entry of a layer: gives it up, finds it to be less good than it seemed and puts it back, or checks
+/// its landing or a step; if that is legal, it leads to a new stance of the layer.
 void LayerSearch::pop(std::size_t k, const Limits& limits) {
   Entry entry = take_best(k);
   const SearchNode node = nodes_[entry.node];

@@ -44,8 +44,8 @@ int least_steps(double distance, double reach_max);
 class LayerSearch {
  public:
   /// Steps that are stable under the disturbances of `box`. The starts are legal stances outside the goal.
-  /// With a `detour_weight`, of two stances equally near to the goal that one counts as nearer whose COM has made less of
-  /// a detour, each metre of it by so much.
+  /// With a `detour_weight`, of two stances equally near to the goal that one counts as nearer whose COM has made less
+  /// of a detour, each metre of it by so much.
   LayerSearch(StepProposals& proposals, const std::vector<Node>& starts, const LatticeResolution& resolution,
               const stability::DisturbanceBox& box, double detour_weight = 0);
 
@@ -92,8 +92,8 @@ class LayerSearch {
     double detour = 0;      ///< what the COM's way so far has been longer than it came nearer to the goal [m]
     bool swings_any_way = false;  ///< set when it is expanded
   };
-  /// Steps from a stance that land at one place: first all of them, the landing not yet looked at; then, by the leg that
-  /// is lifted, all COMs of a level of the pair that is left.
+  /// Steps from a stance that land at one place: first all of them, the landing not yet looked at; then, by the leg
+  /// that is lifted, all COMs of a level of the pair that is left.
   struct Entry {
     double key;                  ///< [m], smaller first
     std::uint32_t number = 0;    ///< ties go by age
@@ -102,10 +102,10 @@ class LayerSearch {
     std::int32_t lifted = -1;    ///< -1: the landing has not been looked at
     std::int32_t pair = -1;      ///< not yet asked for
     std::int32_t last = -1;      ///< the COM that was tried last
-    std::int16_t first_level = 0, level = 0;  ///< of the COMs
-    bool sharpened = false;      ///< its first legal COM has been
-    bool has_led_on = false;     ///< to some stance
-    bool refused = false;        ///< some COM that all feet reach was
+    std::int16_t first_level = 0, level = 0;      ///< of the COMs
+    bool sharpened = false;                       ///< its first legal COM has been
+    bool has_led_on = false;                      ///< to some stance
+    bool refused = false;                         ///< some COM that all feet reach was
     gaits::Rule refused_by = gaits::Rule::reach;  ///< if so: the rule, of those asked last
 
     /// The rules are asked in the order of the enumeration, but for visibility: the later, the nearer to legal.

@@ -1,4 +1,5 @@
-// The rules of steps in the search by layers: what it asks before a step is used, and in which order steps get their turn.
+// The rules of steps in the search by layers: what it asks before a step is used, and in which order steps get their
+// turn.
 #include <algorithm>
 #include <cmath>
 
@@ -74,8 +75,7 @@ std::optional<Rule> LayerSearch::broken_placement_rule(const SearchNode& node, s
   const Vector2d& com = coms_.com(node.com).at;
   if (!scene_->terrain.leg_is_free(com, foot(landing))) return Rule::leg_visibility;
   if (node.old_foot < 0 || node.swings_any_way) return std::nullopt;
-  if (gaits::swing_is_free(*scene_, com, foot(node.old_foot).position, foot(landing).position))
-    return std::nullopt;
+  if (gaits::swing_is_free(*scene_, com, foot(node.old_foot).position, foot(landing).position)) return std::nullopt;
   swing_mattered_ = true;
   return Rule::swing;
 }
@@ -155,7 +155,8 @@ void LayerSearch::try_coms(std::size_t k, Entry entry, const Limits& limits) {
         layer + least_steps({com.to_goal, feet.rear, feet.front}, robot_.reach_max) >= limits.below)
       return;  // so are those behind it
     if (!feet_reach(entry, com.at)) continue;
-    if (const double true_key = key(com.at, entry.pair) + detour_weight_ * detour(entry.node, com); true_key > entry.key) {
+    if (const double true_key = key(com.at, entry.pair) + detour_weight_ * detour(entry.node, com);
+        true_key > entry.key) {
       entry.key = true_key;
       return put_back(k, entry);
     }

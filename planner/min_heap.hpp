@@ -13,7 +13,7 @@ class MinHeap {
  public:
   struct Item {
     double key;
-    std::uint32_t number;   ///< ties go by it, the smaller first
+    std::uint32_t number;  ///< ties go by it, the smaller first
     std::uint32_t payload;
     bool operator<(const Item& other) const { return key != other.key ? key < other.key : number < other.number; }
   };

@@ -13,9 +13,9 @@ namespace {
 std::uint64_t sum(const RuleCounts& counts) { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
 
 std::uint64_t percent(std::uint64_t part, std::uint64_t whole) {
-  return whole > 0 ? static_cast<std::uint64_t>(std::llround(100.0 * static_cast<double>(part) /
-                                                             static_cast<double>(whole)))
-                   : 0;
+  return whole > 0
+             ? static_cast<std::uint64_t>(std::llround(100.0 * static_cast<double>(part) / static_cast<double>(whole)))
+             : 0;
 }
 
 /// Squares far out share their number with others; no harm but a wrong place in a message.
@@ -35,7 +35,8 @@ std::string shares(const RuleCounts& refused) {
   std::string text;
   for (const std::size_t rule : order)
     if (const std::uint64_t share = percent(refused[rule], sum(refused)); share > 0)
-      text += fmt::format("{}{} {} %", text.empty() ? "" : ", ", gaits::to_string(static_cast<gaits::Rule>(rule)), share);
+      text +=
+          fmt::format("{}{} {} %", text.empty() ? "" : ", ", gaits::to_string(static_cast<gaits::Rule>(rule)), share);
   return text;
 }
 

@@ -37,7 +37,8 @@ constexpr Turn auto_turns[] = {{"RRT", 0.7, 1000}, {"EST", 0.3, 2000}, {"RRT", 0
 // Work of Layers, a third of a microsecond to one a unit.
 constexpr std::uint64_t stall_before_proof = 150'000;  ///< without progress: then it is time to ask whether there is a plan
 constexpr std::uint64_t greatest_stall = 1'500'000;
-// Relative to reach_max: a way from the start beyond which barriers are looked for near its end first, and how far there.
+// Relative to reach_max: a way from the start beyond which barriers are looked for near its end first, and how far
+// there.
 constexpr double long_way = 20, window_widths[] = {4, 10};
 constexpr std::uint64_t usual_improvement = 1'000'000, dear = 6;
 
@@ -123,7 +124,8 @@ class Search {
   }
 
   /// Where to look for a barrier: on long terrain around the place that a search came to, `nearest`, then everywhere.
-  std::vector<std::optional<ProofWindow>> windows(const std::vector<Node>& starts, const Eigen::Vector2d& nearest) const {
+  std::vector<std::optional<ProofWindow>> windows(const std::vector<Node>& starts,
+                                                  const Eigen::Vector2d& nearest) const {
     std::vector<std::optional<ProofWindow>> windows;
     if (const double way = nearest.x() - starts.front().com.x();
         scene_.goal.com_x && std::abs(way) > long_way * scene_.robot.reach_max)
@@ -136,8 +138,9 @@ class Search {
   }
 
   /// Whether it can be proven that there is no plan; then that is the result.
-  bool is_impossible(const std::vector<std::optional<ProofWindow>>& windows = {std::nullopt},
-                     const std::function<bool()>& stop = [] { return false; }) {
+  bool is_impossible(
+      const std::vector<std::optional<ProofWindow>>& windows = {std::nullopt},
+      const std::function<bool()>& stop = [] { return false; }) {
     ProofLimits limits;
     limits.deadline = deadline_;
     limits.stop = [this, &stop] { return options_.interrupted() || stop(); };
@@ -234,8 +237,8 @@ class Search {
     if (!search.path().empty())
       return options_.progress(fmt::format("{}; looking for a better plan, {:.1f} s", search.cost(), seconds));
     const double whole = scene_.goal.distance(starts.front().com), left = scene_.goal.distance(search.nearest_com());
-    options_.progress(fmt::format("searching: {:.3g} of {:.3g} m, {:.1f} s of at most {} s", std::max(whole - left, 0.0),
-                                  whole, seconds, options_.time_limit));
+    options_.progress(fmt::format("searching: {:.3g} of {:.3g} m, {:.1f} s of at most {} s",
+                                  std::max(whole - left, 0.0), whole, seconds, options_.time_limit));
   }
 
   std::string came_to(const AnytimeSearch& search) const {

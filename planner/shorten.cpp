@@ -188,10 +188,12 @@ void straighten(StepProposals& proposals, std::vector<Node>& path) {
       const Eigen::Vector2d &before = path[i - 1].com, &here = path[i].com;
       const Eigen::Vector2d after = i + 1 < path.size() ? path[i + 1].com : before, line = after - before;
       way += (here - before).norm();
-      const double along = line.squaredNorm() > 0 ? std::clamp((here - before).dot(line) / line.squaredNorm(), 0.0, 1.0) : 0;
+      const double along =
+          line.squaredNorm() > 0 ? std::clamp((here - before).dot(line) / line.squaredNorm(), 0.0, 1.0) : 0;
       double gain = 0;
       Node best;
-      for (const Eigen::Vector2d& target : {Eigen::Vector2d(before + 0.5 * line), Eigen::Vector2d(before + along * line)})
+      for (const Eigen::Vector2d& target :
+           {Eigen::Vector2d(before + 0.5 * line), Eigen::Vector2d(before + along * line)})
         for (const double part : {1.0, 0.5, 0.25, 0.1}) {
           const Eigen::Vector2d com = here + part * (target - here);
           const double shorter = way_between(before, here, after) - way_between(before, com, after);

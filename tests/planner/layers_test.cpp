@@ -270,10 +270,11 @@ TEST_CASE("a search that finds nothing says how far it came and what refused its
   const auto at = plan.reason.find("Layers came to (");
   REQUIRE(at != std::string::npos);
   REQUIRE(std::sscanf(plan.reason.c_str() + at, "Layers came to (%lf, %lf), %lf m", &x, &y, &left) == 3);
-  CHECK(x > 0.5);   // near the edge
-  CHECK(x < 1.9);   // and not beyond the reach of the ground before it
+  CHECK(x > 0.5);  // near the edge
+  CHECK(x < 1.9);  // and not beyond the reach of the ground before it
   CHECK(left == Approx(3.6 - x).margin(0.01));
-  CHECK_THAT(plan.reason, Catch::Contains("landings and steps refused: ") && Catch::Contains("%) with the COM between ("));
+  CHECK_THAT(plan.reason,
+             Catch::Contains("landings and steps refused: ") && Catch::Contains("%) with the COM between ("));
 }
 
 TEST_CASE("a plan is found where the swing of a leg depends on where it was lifted", "[layers]") {

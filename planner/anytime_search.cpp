@@ -180,6 +180,8 @@ bool AnytimeSearch::improve_steps(std::uint64_t until) {
         break;
       case LayerSearch::End::exhausted:
         exhausted_level_ = now.level;
+        // Other first COMs than those tried would then do more than ever finer lattices.
+        if (exhausted_level_ >= first_unlimited && !proposals_->scene().start.com) return false;
         while (stage_ + 1 < stage_count && level() <= exhausted_level_) ++stage_;
         if (level() <= exhausted_level_) return false;
         break;

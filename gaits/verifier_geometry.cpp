@@ -65,15 +65,14 @@ double distance(const Point& p, const Point& q, const Point& a, const Point& b) 
 // turn. It meets the sector iff one of its ends is in it, or it sweeps across the whole of it.
 bool meets_sector(const Point& centre, double radius, const Point& from, const Point& to, const Point& a,
                   const Point& b) {
-  const Point m = a - centre, d = b - a;
-  const double quadratic = d.squaredNorm(), half_linear = m.dot(d), constant = m.squaredNorm() - radius * radius;
-  const double discriminant = half_linear * half_linear - quadratic * constant;
-  if (discriminant < 0) return false;
-  const double root = std::sqrt(discriminant);
-  const double t0 = std::max(0.0, (-half_linear - root) / quadratic);
-  const double t1 = std::min(1.0, (-half_linear + root) / quadratic);
-  if (t0 > t1) return false;
-  const Point first = m + t0 * d, last = m + t1 * d;
+  // By lengths along the segment from the foot of the perpendicular: no square of the segment's length, which may be
+  // millions of radii, is taken.
+  const Point m = a - centre, along = (b - a).normalized(), across(-along.y(), along.x());
+  const double distance = m.dot(across), begin = m.dot(along), end = begin + (b - a).norm();
+  const double half_chord = std::sqrt(std::max(0.0, radius * radius - distance * distance));
+  const double s0 = std::max(begin, -half_chord), s1 = std::min(end, half_chord);
+  if (std::abs(distance) > radius || s0 > s1) return false;
+  const Point first = distance * across + s0 * along, last = distance * across + s1 * along;
   const double opening = turn(from, to);
   if (turn(from, first) <= opening || turn(from, last) <= opening) return true;
   const double sweep = turn(first, last);

@@ -187,36 +187,51 @@ StartChoice choose_start(StepProposals& proposals) {
 
 namespace {
 
-/// Segments that a COM in the goal may reach, with the running sum of their lengths.
+/// Parts of segments that a COM in the goal may reach, with the running sum of their lengths.
 struct NearGoal {
   std::vector<const terrain::Segment*> segments;
-  std::vector<double> sums;  ///< [m]
+  std::vector<double> begins;  ///< of the parts, along their segments [m]
+  std::vector<double> sums;    ///< [m]
 };
 
+/// What of [from, to] (shares of a segment from coordinate a to b) lies within reach of an interval.
+void clip_to_reach(const std::optional<std::pair<double, double>>& interval, double reach, double a, double b,
+                   double& from, double& to) {
+  if (!interval) return;
+  const double low = interval->first - reach, high = interval->second + reach;
+  if (a == b) {
+    if (a < low || a > high) to = from;
+    return;
+  }
+  const double one = (low - a) / (b - a), other = (high - a) / (b - a);
+  from = std::max(from, std::min(one, other));
+  to = std::min(to, std::max(one, other));
+}
+
 NearGoal near_goal(const gaits::Scene& scene) {
-  const auto meets = [&](const std::optional<std::pair<double, double>>& interval, double a, double b) {
-    return !interval || (std::max(a, b) >= interval->first - scene.robot.reach_max &&
-                         std::min(a, b) <= interval->second + scene.robot.reach_max);
-  };
   NearGoal near;
   double sum = 0;
   for (const terrain::Segment& segment : scene.terrain.segments()) {
-    if (!segment.surface.foothold || !meets(scene.goal.com_x, segment.a.x(), segment.b.x()) ||
-        !meets(scene.goal.com_y, segment.a.y(), segment.b.y()))
-      continue;
+    if (!segment.surface.foothold) continue;
+    double from = 0, to = 1;
+    clip_to_reach(scene.goal.com_x, scene.robot.reach_max, segment.a.x(), segment.b.x(), from, to);
+    clip_to_reach(scene.goal.com_y, scene.robot.reach_max, segment.a.y(), segment.b.y(), from, to);
+    if (!(from < to)) continue;
     near.segments.push_back(&segment);
-    near.sums.push_back(sum += segment.length);
+    near.begins.push_back(from * segment.length);
+    near.sums.push_back(sum += (to - from) * segment.length);
   }
   return near;
 }
 
 std::optional<terrain::Foothold> pick(const gaits::Scene& scene, const NearGoal& near, double u) {
   const double at = u * near.sums.back();
-  const auto i = std::min(static_cast<std::size_t>(std::lower_bound(near.sums.begin(), near.sums.end(), at) -
-                                                   near.sums.begin()),
-                          near.sums.size() - 1);
+  const auto i = std::min(
+      static_cast<std::size_t>(std::lower_bound(near.sums.begin(), near.sums.end(), at) - near.sums.begin()),
+      near.sums.size() - 1);
   const terrain::Segment& segment = *near.segments[i];
-  return scene.terrain.foothold_at(segment.chain, segment.s_begin + segment.length - (near.sums[i] - at));
+  const double before = i > 0 ? near.sums[i - 1] : 0;
+  return scene.terrain.foothold_at(segment.chain, segment.s_begin + near.begins[i] + (at - before));
 }
 
 bool stands_in_goal(const gaits::Scene& scene, const gaits::Robot& robot, gaits::Stance& stance, std::uint64_t k) {

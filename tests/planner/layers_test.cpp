@@ -94,6 +94,17 @@ TEST_CASE("a long segment is divided as a short one is, wherever it is looked at
   }
 }
 
+TEST_CASE("the goal is found to be standable however long the ground under it is", "[layers]") {
+  const double half = GENERATE(5.0, 1e5, 1e7);
+  const std::string ends = std::to_string(half);
+  const gaits::Scene scene = gaits::parse_scene(scene_text("[[-" + ends + ", 0], [" + ends + ", 0]]", 3), "long");
+  CHECK(look_at_goal(scene).standable);
+  SearchOptions options;
+  options.planner = "Layers";
+  options.effort = 0;
+  require_holds(scene, search(scene, options));
+}
+
 TEST_CASE("footholds are numbered by the order of the questions, but the places are the same", "[layers]") {
   const terrain::Terrain terrain({{{{0, 0}, {1, 0}, {2, 0.3}, {3, 0}}, {{0.5, true}, {0.5, true}, {0.5, true}}}});
   const auto places = [&](const std::vector<Eigen::Vector2d>& coms) {

@@ -149,7 +149,10 @@ void LayerSearch::pop(std::size_t k, const Limits& limits) {
 
 void LayerSearch::reach(std::size_t k, const Entry& entry, std::int32_t number) {
   auto& com = coms_.com(number);
-  if (com.node < 0) {
+  // Steps that were found from the stance when the free leg came from elsewhere keep the node that they were found from,
+  // unless it swings any way.
+  const bool keep = com.node >= 0 && nodes_[com.node].level >= 0 && !nodes_[com.node].swings_any_way;
+  if (com.node < 0 || keep) {
     com.node = static_cast<std::int32_t>(nodes_.size());
     nodes_.push_back({});
   }

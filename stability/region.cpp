@@ -5,8 +5,8 @@
 #include <map>
 
 #include "stability/region_cells.hpp"
-#include "stability/region_pieces.hpp"
 #include "stability/region_setup.hpp"
+#include "stability/region_subdivision.hpp"
 #include "stability/region_sweep.hpp"
 
 namespace surefoot::stability {
@@ -18,9 +18,8 @@ constexpr double rounding = 1e-14;  // of sums of products of coordinates, relat
 
 /// Areas by a subdivision: what its rectangles prove.
 struct Proof {
-  double robust = 0;  ///< [m^2] surely robust
-  double error = 0;   ///< [m^2] of any sum of areas
-  double open = 0;    ///< [m^2] undecided, part of `error`
+  double robust = 0, robust_error = 0;  ///< [m^2]
+  double error = 0;                     ///< [m^2] of any sum of areas
   std::map<std::uint32_t, double> area;  ///< [m^2] by the set of modes; only if all modes were looked at
   int rectangles = 0;
 };
@@ -28,17 +27,9 @@ struct Proof {
 Proof prove(const RegionSetup& setup, double tolerance, bool robust_only, int most_rectangles) {
   Subdivision subdivision(*setup.modes, setup.local, robust_only);
   subdivision.run(tolerance * setup.area, most_rectangles);
-  Proof proof;
-  std::vector<Piece> pieces;
-  for (std::size_t k = 0; k < subdivision.leaves().size(); ++k)
-    proof.error += cut(subdivision.leaves()[k], static_cast<int>(k), pieces);
-  for (const Piece& piece : pieces) {
-    if (piece.modes == 0) proof.robust += piece.area;
-    if (!robust_only) proof.area[piece.modes] += piece.area;
-  }
-  proof.open = (robust_only ? 2 : 1) * subdivision.open_area();
-  proof.error += subdivision.error() + (robust_only ? subdivision.open_area() : 0) + rounding * setup.area;
-  proof.rectangles = subdivision.rectangles();
+  Proof proof{subdivision.robust(), subdivision.robust_error() + rounding * setup.area,
+              subdivision.error() + rounding * setup.area, {}, subdivision.rectangles()};
+  for (const Piece& piece : subdivision.pieces()) proof.area[piece.modes] += piece.area;
   return proof;
 }
 
@@ -117,8 +108,8 @@ std::optional<std::vector<ContactMode>> modes_at(std::span<const Contact> contac
   std::uint32_t found = 0;
   for (int k = 0; k < static_cast<int>(here.modes().size()); ++k) {
     const ModeThere there = mode_there(here, k, {});
-    if (there.kind == ModeThere::everywhere) found |= 1u << k;
-    if (there.kind != ModeThere::everywhere && there.kind != ModeThere::nowhere) return std::nullopt;
+    if (there.kind == ModePart::everywhere) found |= 1u << k;
+    if (there.kind != ModePart::everywhere && there.kind != ModePart::nowhere) return std::nullopt;
   }
   return finish.named(found);
 }
@@ -149,11 +140,10 @@ double difference(const Proof& proof, const SweepCells& found) {
   return sum;
 }
 
-/// The area of R(W) from the cells, if the proof admits it, else the middle of what that admits.
+/// The area of R(W) from the cells, if the proof admits it, else that of the proof.
 void settle(Region& region, double from_cells, const Proof& proof) {
-  const double middle = proof.robust + 0.5 * proof.open, half = proof.error - 0.5 * proof.open;
-  region.robust_area = std::abs(from_cells - middle) <= half ? from_cells : middle;
-  region.area_error = std::min(half + std::abs(region.robust_area - middle), region.equilibrium_area);
+  region.robust_area = std::abs(from_cells - proof.robust) <= proof.robust_error ? from_cells : proof.robust;
+  region.area_error = std::min(proof.robust_error + std::abs(region.robust_area - proof.robust), region.equilibrium_area);
   region.rectangles += proof.rectangles;
 }
 
@@ -168,8 +158,8 @@ RegionAreas region_areas(std::span<const Contact> contacts, double radius_of_gyr
   areas.equilibrium = setup.area;
   if (!(setup.area > 0)) return areas;
   const Proof proof = prove(setup, options.area_tolerance, true, most_rectangles);
-  areas.robust = std::min(proof.robust + 0.5 * proof.open, setup.area);
-  areas.error = std::min(proof.error - 0.5 * proof.open, setup.area);
+  areas.robust = std::min(proof.robust, setup.area);
+  areas.error = std::min(proof.robust_error, setup.area);
   areas.rectangles = proof.rectangles;
   return areas;
 }

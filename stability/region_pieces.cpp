@@ -87,59 +87,115 @@ double integral(const Coefficients& p, double from, double to) {
   return high * to - low * from;
 }
 
-double end(const Leaf& leaf, int curve, double sigma) {
-  if (curve < 0) return curve == Piece::side_below ? -1 : 1;
-  return std::clamp(leaf.curves[curve].graph.at(sigma), -1.0, 1.0);
+ModePart::Kind state_of(const ModePart& part, std::uint64_t holds) {
+  if (part.kind != ModePart::by_curves) return part.kind;
+  const std::uint64_t all = (std::uint64_t{1} << part.count) - 1;
+  return (holds & all) == all ? ModePart::everywhere : ModePart::nowhere;
 }
+
+/// Without the conditions whose sign is the same on all of `box`.
+ModePart narrowed(const RegionModes& modes, const ModePart& given, const Rectangle& box) {
+  if (given.kind != ModePart::by_curves) return given;
+  ModePart part;
+  for (const CurveCondition& condition : given.conditions()) {
+    const int there = condition.sign * sign_there(curve_there(modes, condition.curve, box));
+    if (there < 0) return {ModePart::nowhere, 0, {}};
+    if (there == 0) part.condition[part.count++] = condition;
+  }
+  part.kind = part.count == 0 ? ModePart::everywhere : ModePart::by_curves;
+  return part;
+}
+
+/// The pieces of a leaf in one interval of sigma.
+class Cut {
+ public:
+  Cut(const Leaf& leaf, std::vector<Piece>& pieces) : leaf_(leaf), pieces_(pieces), scale_(leaf.box.ds() * leaf.box.dt()) {}
+
+  void interval(double from, double to) {
+    const double middle = 0.5 * (from + to);
+    std::uint64_t holds = 0;  // below all curves
+    order_.clear();
+    for (std::size_t k = 0; k < leaf_.curves.size(); ++k) {
+      const LocalCurve& curve = leaf_.curves[k];
+      const double tau = curve.graph.at(middle);
+      if (tau > -1 && tau < 1) order_.push_back({tau, static_cast<int>(k)});
+      if ((sign(curve) > 0) == (tau <= -1)) holds |= std::uint64_t{1} << k;
+    }
+    std::sort(order_.begin(), order_.end());
+    double below = from - to, tau = -1;  // integral and middle of the lower end
+    for (std::size_t k = 0; k <= order_.size(); ++k) {
+      const bool last = k == order_.size();
+      const double above = last ? to - from : integral(leaf_.curves[order_[k].second].graph.p, from, to);
+      const double next = last ? 1 : order_[k].first;
+      add(holds, scale_ * (above - below), next - tau);
+      if (!last) holds ^= std::uint64_t{1} << order_[k].second;
+      below = above, tau = next;
+    }
+  }
+  void thin(double width) { areas_.loose += 2 * width * scale_; }
+  void loosen(double distance) { areas_.loose += 2 * distance * scale_; }
+  const Areas& areas() const { return areas_; }
+
+ private:
+  static int sign(const LocalCurve& curve) { return curve.sign * curve.graph.rising; }
+
+  void add(std::uint64_t holds, double area, double width) {
+    const std::uint64_t edges = leaf_.curves.size() == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << leaf_.curves.size()) - 1;
+    if ((~holds & edges) >> leaf_.mode_curves != 0 && leaf_.mode_curves < leaf_.curves.size()) return;
+    if (width < thinnest_piece) {
+      areas_.loose += std::abs(area);
+      return;
+    }
+    Piece piece{leaf_.everywhere, 0, area};
+    for (const LeafMode& mode : leaf_.modes) {
+      const ModePart::Kind state = mode.state(holds);
+      if (state == ModePart::everywhere) piece.modes |= 1u << mode.mode;
+      if (state == ModePart::unknown) piece.undecided |= 1u << mode.mode;
+      holds >>= mode.curves();
+    }
+    if (piece.modes == 0) (piece.undecided == 0 ? areas_.robust : areas_.open) += area;
+    if (piece.undecided != 0) areas_.unsure += area;
+    pieces_.push_back(piece);
+  }
+
+  const Leaf& leaf_;
+  std::vector<Piece>& pieces_;
+  double scale_;
+  std::vector<std::pair<double, int>> order_;
+  Areas areas_;
+};
 
 }  // namespace
 
-double lower_end(const Leaf& leaf, const Piece& piece, double sigma) { return end(leaf, piece.lower, sigma); }
-double upper_end(const Leaf& leaf, const Piece& piece, double sigma) { return end(leaf, piece.upper, sigma); }
+ModePart::Kind LeafMode::state(std::uint64_t holds) const {
+  if (!there.denominator) return state_of(there.part[0], holds);
+  const bool plus = holds & 1;
+  return state_of(there.part[plus ? 0 : 1], holds >> (plus ? 1 : 1 + there.part[0].count));
+}
 
-double cut(const Leaf& leaf, int index, std::vector<Piece>& pieces) {
-  const double scale = leaf.box.ds() * leaf.box.dt();
-  if (leaf.curves.empty()) {
-    pieces.push_back({leaf.everywhere, 4 * scale, index, 0, -1, 1, Piece::side_below, Piece::side_above});
-    return 0;
+ModeThere narrowed(const RegionModes& modes, int mode, const ModeThere& there, const Rectangle& part) {
+  ModeThere result = there;
+  if (there.denominator) {
+    const CurveId id{CurveId::denominator, static_cast<signed char>(mode), -1, -1, -1, 0};
+    const int sign = sign_there(curve_there(modes, id, part));
+    result.denominator = sign == 0;
+    if (sign < 0) result.part[0] = there.part[1];
   }
-  const auto integral_of = [&](int curve, double from, double to) {
-    if (curve < 0) return curve == Piece::side_below ? from - to : to - from;
-    return integral(leaf.curves[curve].graph.p, from, to);
-  };
-  double dropped = 0;
+  for (int k = 0; k <= result.denominator; ++k) result.part[k] = narrowed(modes, result.part[k], part);
+  result.summarise();
+  return result;
+}
+
+Areas cut(const Leaf& leaf, std::vector<Piece>& pieces) {
+  Cut cut(leaf, pieces);
+  for (const LocalCurve& curve : leaf.curves) cut.loosen(curve.graph.error);
   const std::vector<double> at = breaks(leaf);
-  std::vector<std::pair<double, int>> order;
-  for (std::size_t interval = 0; interval + 1 < at.size(); ++interval) {
-    const double from = at[interval], to = at[interval + 1], middle = 0.5 * (from + to);
-    if (to - from < thinnest_piece) {
-      dropped += 2 * (to - from) * scale;
-      continue;
-    }
-    order.assign({{-1.0, Piece::side_below}, {1.0, Piece::side_above}});
-    for (std::size_t k = 0; k < leaf.curves.size(); ++k) {
-      const double tau = leaf.curves[k].graph.at(middle);
-      if (tau > -1 && tau < 1) order.push_back({tau, static_cast<int>(k)});
-    }
-    std::sort(order.begin(), order.end());
-    for (std::size_t k = 0; k + 1 < order.size(); ++k) {
-      const double width = order[k + 1].first - order[k].first, tau = order[k].first + 0.5 * width;
-      Piece piece{leaf.everywhere, 0, index, static_cast<int>(interval), from, to, order[k].second, order[k + 1].second};
-      bool inside = true;
-      for (const LocalCurve& curve : leaf.curves) {
-        const bool holds = curve.holds(middle, tau);
-        if (curve.curve.kind == CurveId::edge) inside &= holds;
-        if (curve.curve.kind != CurveId::edge && holds) piece.modes |= 1u << curve.curve.mode;
-      }
-      if (!inside) continue;
-      piece.area = scale * (integral_of(piece.upper, from, to) - integral_of(piece.lower, from, to));
-      if (width < thinnest_piece)
-        dropped += std::abs(piece.area);
-      else
-        pieces.push_back(piece);
-    }
-  }
-  return dropped;
+  for (std::size_t k = 0; k + 1 < at.size(); ++k)
+    if (at[k + 1] - at[k] < thinnest_piece)
+      cut.thin(at[k + 1] - at[k]);
+    else
+      cut.interval(at[k], at[k + 1]);
+  return cut.areas();
 }
 
 }  // namespace surefoot::stability

@@ -17,22 +17,17 @@ SignedMode::SignedMode(const RegionMode& mode, const Rectangle& rectangle, doubl
   }
 }
 
-ModeThere SignedMode::decide() const {
-  const Margin m = margin_at(0, 0);
-  ModeThere there;
-  there.feasible_in_middle = m.value > 0;
-  if (m.count == 0 || (m.value > 0 && witnessed(m.u, m.w, there.strip))) {
-    there.kind = ModeThere::everywhere;
-    return there;
-  }
-  if (m.value <= 0 && (excluded(m, there.strip) || excluded_by_basis(m.basis))) {
-    there.kind = ModeThere::nowhere;
-    return there;
-  }
-  if (denominator_ && beside_denominator(there)) return there;
-  const Margin at_curve = margin_on_curve(m);
-  if (!single_curve(at_curve.basis, there)) there.kind = ModeThere::unknown;
-  return there;
+void SignedMode::decide(const Margin& m, ModePart& part, double& strip) const {
+  const bool feasible = m.value > 0;
+  double own = 0;
+  if (m.count == 0 || (feasible && witnessed(m.u, m.w, own)))
+    part.kind = ModePart::everywhere;
+  else if (!feasible && (excluded(m, {}, own) || excluded_by_basis(m.basis) || excluded(m, remaining_box(), own)))
+    part.kind = ModePart::nowhere;
+  if (part.kind != ModePart::unknown)
+    strip += own;
+  else if (!denominator_ || !beside_denominator(part))
+    by_curves(margin_on_curve(m).basis, part);
 }
 
 Margin SignedMode::margin_at(double sigma, double tau) const {
@@ -60,7 +55,25 @@ bool SignedMode::witnessed(double u, double w, double& strip) const {
   return true;
 }
 
-bool SignedMode::excluded(const Margin& m, double& strip) const {
+SignedMode::Box SignedMode::remaining_box() const {
+  Box box;
+  constexpr double room = 1e-12;  // for rounding, of numbers of size 1
+  for (int k = 0; k < count_; ++k) {
+    const LocalRow& row = row_[k];
+    const auto cut = [&](const Conic& slot, const Conic& a, const Conic& b, std::array<double, 2>& range) {
+      const double least = lower(slot), greatest = upper(slot), top = std::max(upper(a), upper(b)) + row.error;
+      const double weakest = top > 0 ? std::min(std::abs(least), std::abs(greatest)) : std::max(std::abs(least), std::abs(greatest));
+      const double end = -top / weakest;  // of what is excluded, in the sense in which the row grows
+      if (least > 0) range[0] = std::clamp(end - room, range[0], range[1]);
+      if (greatest < 0) range[1] = std::clamp(room - end, range[0], range[1]);
+    };
+    cut(row.form.u, at_wrench(row, 0, -1), at_wrench(row, 0, 1), box.u);
+    cut(row.form.w, at_wrench(row, -1, 0), at_wrench(row, 1, 0), box.w);
+  }
+  return box;
+}
+
+bool SignedMode::excluded(const Margin& m, const Box& box, double& strip) const {
   LocalRow sum;
   const signed char basis[3] = {m.basis.a, m.basis.b, m.basis.c};
   for (int k = 0; k < m.count; ++k) {
@@ -68,8 +81,8 @@ bool SignedMode::excluded(const Margin& m, double& strip) const {
     sum.form = {sum.form.u + row.form.u * m.y[k], sum.form.one + row.form.one * m.y[k], sum.form.w + row.form.w * m.y[k]};
     sum.error += row.error * m.y[k];
   }
-  for (const double u : {-1.0, 1.0})
-    for (const double w : {-1.0, 1.0})
+  for (const double u : box.u)
+    for (const double w : box.w)
       if (!negative(at_wrench(sum, u, w), sum.error, strip)) return false;
   return true;
 }
@@ -99,15 +112,6 @@ Poly2 SignedMode::jet(const CurveId& id, double sigma, double tau) const {
     };
     return Form<Poly2>{poly(row_[k].form.u), poly(row_[k].form.one), poly(row_[k].form.w)};
   });
-}
-
-bool SignedMode::single_curve(const CurveId& id, ModeThere& there) const {
-  switch (id.kind) {
-    case CurveId::corner: return on_side(id.place & 1 ? 1 : 0, there) || on_side(id.place & 2 ? 3 : 2, there);
-    case CurveId::side: return on_side(id.place, there);
-    case CurveId::inside: return within(id, there);
-    default: return false;
-  }
 }
 
 bool SignedMode::excluded_by_basis(const CurveId& id) const {
@@ -140,7 +144,7 @@ bool SignedMode::excluded_inside(const CurveId& id) const {
   return upper(sum * sign) < -2 * error;
 }
 
-bool SignedMode::within(const CurveId& id, ModeThere& there) const {
+bool SignedMode::within(const CurveId& id, ModePart& part) const {
   const int at[3] = {id.a, id.b, id.c};
   std::array<Bivariate<4>, 3> y;
   const double sign = multipliers(at, y);
@@ -148,9 +152,8 @@ bool SignedMode::within(const CurveId& id, ModeThere& there) const {
   bool free = false;
   for (int k = 0; k < 3 && !free; ++k) free = vertex_free_of_others(at, k, y[k], sign);
   if (!free) return false;
-  there.kind = ModeThere::beyond_curve;
-  there.curve = id;
-  there.sign = static_cast<signed char>(sign * sign_);
+  part.kind = ModePart::by_curves, part.count = 1;
+  part.condition[0] = {id, static_cast<signed char>(sign * sign_)};
   return true;
 }
 

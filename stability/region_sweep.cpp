@@ -64,8 +64,8 @@ void Sweep::classify(int mode, int first, int last, double lo, double hi, int t_
   if (settled || !(lo <= hi)) return;
   const double a = strips_[first].a, b = strips_[last - 1].b;
   const ModeThere there = mode_there(modes_, mode, {a, b, lo, hi});
-  if (there.kind == ModeThere::nowhere) return;
-  const bool feasible = there.kind != ModeThere::unknown || there.feasible_in_middle;
+  if (there.kind == ModePart::nowhere) return;
+  const bool feasible = there.kind != ModePart::unknown || there.feasible_in_middle;
   const bool one_strip = last - first == 1;
   if (one_strip && (feasible || t_depth == deepest_rectangle)) {
     strips_[first].active |= 1u << mode;

@@ -24,10 +24,15 @@ void SignedMode::decide(const Margin& m, ModePart& part, double& strip) const {
     part.kind = ModePart::everywhere;
   else if (!feasible && (excluded(m, {}, own) || excluded_by_basis(m.basis) || excluded(m, remaining_box(), own)))
     part.kind = ModePart::nowhere;
-  if (part.kind != ModePart::unknown)
-    strip += own;
-  else if (!denominator_ || !beside_denominator(part))
-    by_curves(margin_on_curve(m).basis, part);
+  if (part.kind == ModePart::unknown && !(denominator_ && beside_denominator(part))) {
+    const Margin near = margin_on_curve(m);
+    own = 0;
+    if (!feasible && !(near.value > 0) && !(near.basis == m.basis) && excluded(near, {}, own))
+      part.kind = ModePart::nowhere;
+    else if (own = 0; true)
+      by_curves(near.basis, part);
+  }
+  strip += own;
 }
 
 Margin SignedMode::margin_at(double sigma, double tau) const {
@@ -36,10 +41,27 @@ Margin SignedMode::margin_at(double sigma, double tau) const {
   return margin(g.data(), count_);
 }
 
+namespace {
+
+/// z such that f + z e has the least slope in the middle.
+double balance(const Conic& f, const Conic& e) {
+  return -(f.c[1] * e.c[1] + f.c[2] * e.c[2]) / (e.c[1] * e.c[1] + e.c[2] * e.c[2]);
+}
+
+}  // namespace
+
+bool SignedMode::positive(const Conic& f, double error) const {
+  if (lower(f) > error) return true;
+  if (!denominator_) return false;
+  constexpr double rounding = 1e-14;  // of D and of the sum
+  const double z = -balance(f, *denominator_);
+  return z > 0 && lower(f - *denominator_ * z) > error + rounding * z * magnitude(*denominator_);
+}
+
 bool SignedMode::negative(const Conic& f, double error, double& strip) const {
-  if (upper(f) < -error) return true;
+  if (positive(f * -1, error)) return true;
   for (const Conic& e : edges_) {
-    const double slope = e.c[1] * e.c[1] + e.c[2] * e.c[2], z = -(f.c[1] * e.c[1] + f.c[2] * e.c[2]) / slope;
+    const double z = balance(f, e);
     if (!(z > 0) || !(upper(f + e * z) <= error)) continue;
     const double part = error / (z * std::max(std::abs(e.c[1]), std::abs(e.c[2])));
     if (!(part < widest_strip)) continue;

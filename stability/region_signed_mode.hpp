@@ -54,7 +54,9 @@ class SignedMode {
  private:
   Margin margin_at(double sigma, double tau) const;
 
-  /// f < 0 on the rectangle within the polygon, but for a strip along an edge.
+  /// f > 0 on the rectangle; with a denominator, where that is positive: there f >= f - z D for z >= 0.
+  bool positive(const Conic& f, double error) const;
+  /// f < 0 on the rectangle within the polygon, but for a strip along an edge; with a denominator, where that is positive.
   bool negative(const Conic& f, double error, double& strip) const;
   static constexpr double widest_strip = 1e-6;
 

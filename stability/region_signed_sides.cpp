@@ -59,17 +59,18 @@ bool SignedMode::by_side(int side, std::optional<SideConditions>& conditions, Mo
     conditions.reset();
     return false;
   }
-  part.count = 0;
+  ModePart found;
   std::optional<Box> box;
   for (int k = 0; k < conditions->opens; ++k) {
     SideConditions::Open& open = conditions->open[k];
     open.necessary = necessary(open.curve, {});
     if (!open.necessary && !box) box = remaining_box();
     open.necessary |= box && necessary(open.curve, *box);
-    if (open.necessary) part.condition[part.count++] = open;
+    if (open.necessary) found.condition[found.count++] = open;
   }
-  if (part.count < conditions->opens) return false;
-  part.kind = part.count == 0 ? ModePart::everywhere : ModePart::by_curves;
+  if (found.count < conditions->opens) return false;
+  found.kind = found.count == 0 ? ModePart::everywhere : ModePart::by_curves;
+  part = found;
   return true;
 }
 
@@ -88,15 +89,17 @@ bool SignedMode::by_two_sides(const SideConditions& one, const SideConditions& o
       const int i = f.curve.a, j = g.curve.a;
       if (i != j && !has_pair(one, i, j) && !has_pair(other, i, j)) return false;
     }
-  part.count = 0;
+  ModePart found;
+  found.kind = ModePart::by_curves;
   for (const SideConditions* side : {&one, &other})
     for (const SideConditions::Open& open : side->listed()) {
       if (!open.necessary) continue;
-      if (part.count == part.condition.size()) return false;
-      part.condition[part.count++] = open;
+      if (found.count == found.condition.size()) return false;
+      found.condition[found.count++] = open;
     }
-  part.kind = ModePart::by_curves;
-  return part.count > 0;
+  if (found.count == 0) return false;
+  part = found;
+  return true;
 }
 
 bool SignedMode::necessary(const CurveId& id, const Box& box) const {
@@ -106,7 +109,7 @@ bool SignedMode::necessary(const CurveId& id, const Box& box) const {
     for (const double u : box.u)
       for (const double w : box.w) {
         const Conic there = at_wrench(row, u, w);
-        if (!(lower(here - there) >= -row.error) && !(upper(there) < -row.error)) return false;
+        if (!(lower(here - there) >= -row.error) && !positive(there * -1, row.error)) return false;
       }
     return true;
   }
@@ -171,8 +174,12 @@ bool SignedMode::SideConditions::collect() {
   for (int k = 0; k < mode.count_; ++k) {
     row[k] = mode.on_side(k, side);
     const double error = mode.row_[k].error;
-    const bool low_holds = lower(row[k].e - row[k].g) > error, high_holds = lower(row[k].e + row[k].g) > error;
+    const bool low_holds = mode.positive(row[k].e - row[k].g, error), high_holds = mode.positive(row[k].e + row[k].g, error);
     if (low_holds && high_holds) continue;
+    if (!low_holds && !high_holds && magnitude(row[k].g) <= error) {  // the same on all of the side
+      if (!leave_open(corner(k, true), of_rows)) return false;
+      continue;
+    }
     // A row that holds at an end holds on all of the side where its slope has the other sign.
     if (high_holds || (!low_holds && lower(row[k].g) >= -error && leave_open(corner(k, true), of_rows)))
       rising[risings++] = k;

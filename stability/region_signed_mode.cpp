@@ -8,7 +8,14 @@ namespace surefoot::stability {
 SignedMode::SignedMode(const RegionMode& mode, const Rectangle& rectangle, double sign, std::span<const Conic> edges,
            const Conic* denominator)
     : edges_(edges), count_(mode.count), sign_(sign) {
-  if (denominator != nullptr) denominator_ = *denominator * sign;
+  if (denominator != nullptr) {
+    denominator_ = *denominator * sign;
+    const double d = denominator_->c[0], ds = denominator_->c[1], dt = denominator_->c[2];
+    const double slope = ds * ds + dt * dt, steepest = std::max(std::abs(ds), std::abs(dt));
+    // Along the gradient D vanishes after -d / slope and the rectangle ends after 1 / steepest; half-way between them.
+    const double along = d < 0 && slope > 0 ? std::min(0.5 * (1 / steepest - d / slope), 1 / steepest) : 0;
+    sigma_ = along * ds, tau_ = along * dt;
+  }
   for (int k = 0; k < count_; ++k) {
     const Form<Poly2>& f = mode.row[k].form;
     LocalRow& row = row_[k];
@@ -22,7 +29,9 @@ void SignedMode::decide(const Margin& m, ModePart& part, double& strip) const {
   double own = 0;
   if (m.count == 0 || (feasible && witnessed(m.u, m.w, own)))
     part.kind = ModePart::everywhere;
-  else if (!feasible && (excluded(m, {}, own) || excluded_by_basis(m.basis) || excluded(m, remaining_box(), own)))
+  else if (!feasible && (excluded(m, {}, own) || excluded_by_basis(m.basis)))
+    part.kind = ModePart::nowhere;
+  else if (const Box box = feasible ? Box{} : remaining_box(); box.empty || (!feasible && excluded(m, box, own)))
     part.kind = ModePart::nowhere;
   if (part.kind == ModePart::unknown && !(denominator_ && beside_denominator(part))) {
     const Margin near = margin_on_curve(m);
@@ -86,6 +95,8 @@ SignedMode::Box SignedMode::remaining_box() const {
       const double least = lower(slot), greatest = upper(slot), top = std::max(upper(a), upper(b)) + row.error;
       const double weakest = top > 0 ? std::min(std::abs(least), std::abs(greatest)) : std::max(std::abs(least), std::abs(greatest));
       const double end = -top / weakest;  // of what is excluded, in the sense in which the row grows
+      if ((least > 0 || greatest < 0) && end > 1 + room) box.empty = true;
+      if (top < 0 && top + std::max(std::abs(least), std::abs(greatest)) < 0) box.empty = true;
       if (least > 0) range[0] = std::clamp(end - room, range[0], range[1]);
       if (greatest < 0) range[1] = std::clamp(room - end, range[0], range[1]);
     };
@@ -110,7 +121,7 @@ bool SignedMode::excluded(const Margin& m, const Box& box, double& strip) const 
 }
 
 Margin SignedMode::margin_on_curve(Margin m) const {
-  double sigma = 0, tau = 0;
+  double sigma = sigma_, tau = tau_;
   constexpr int attempts = 2;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (m.basis.kind == CurveId::denominator || m.basis.kind == CurveId::edge) break;

@@ -47,8 +47,8 @@ class SignedMode {
   SignedMode(const RegionMode& mode, const Rectangle& rectangle, double sign, std::span<const Conic> edges,
              const Conic* denominator);
 
-  /// In the middle of the rectangle.
-  Margin margin_in_middle() const { return margin_at(0, 0); }
+  /// In the middle of the rectangle, or of that part of it where the denominator is positive.
+  Margin margin_in_middle() const { return margin_at(sigma_, tau_); }
   void decide(const Margin& in_middle, ModePart& part, double& strip) const;
 
  private:
@@ -65,6 +65,7 @@ class SignedMode {
   /// Part of W.
   struct Box {
     std::array<double, 2> u{-1, 1}, w{-1, 1};
+    bool empty = false;
   };
   /// W without what one row alone excludes on all of the rectangle.
   Box remaining_box() const;
@@ -156,6 +157,7 @@ class SignedMode {
   std::array<LocalRow, 6> row_;
   std::span<const Conic> edges_;
   std::optional<Conic> denominator_;
+  double sigma_ = 0, tau_ = 0;
   int count_;
   double sign_;
 };

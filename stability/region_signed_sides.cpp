@@ -121,14 +121,14 @@ bool SignedMode::necessary(const CurveId& id, const Box& box) const {
 
 bool SignedMode::beside_denominator(ModePart& part) const {
   CurveId tried;
-  for (const double sigma : {-1.0, 0.0, 1.0})
-    for (const double tau : {-1.0, 0.0, 1.0}) {
-      if (!(value_at(*denominator_, sigma, tau) > 0)) continue;
-      const CurveId id = margin_at(sigma, tau).basis;
-      if (id.kind != CurveId::side || id == tried) continue;
-      tried = id;
-      if (beside_denominator(id, part)) return true;
-    }
+  constexpr double place[5][2] = {{0, 0}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
+  for (const auto& [sigma, tau] : place) {
+    if (!(value_at(*denominator_, sigma, tau) > 0)) continue;
+    const CurveId id = margin_at(sigma, tau).basis;
+    if (id.kind != CurveId::side || id == tried) continue;
+    tried = id;
+    if (beside_denominator(id, part)) return true;
+  }
   return false;
 }
 

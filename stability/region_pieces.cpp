@@ -61,8 +61,8 @@ void find_roots(const Coefficients& p, double from, double to, std::vector<doubl
 std::vector<double> breaks(const Leaf& leaf) {
   std::vector<double> at{-1, 1};
   const auto cross = [&](Coefficients p) { find_roots(p, -1, 1, at); };
-  for (std::size_t k = 0; k < leaf.curves.size(); ++k) {
-    const Coefficients& p = leaf.curves[k].graph.p;
+  for (std::size_t k = 0; k < leaf.graphs.size(); ++k) {
+    const Coefficients& p = leaf.graphs[k].p;
     for (const double side : {-1.0, 1.0}) {
       Coefficients shifted = p;
       shifted[0] -= side;
@@ -70,7 +70,7 @@ std::vector<double> breaks(const Leaf& leaf) {
     }
     for (std::size_t l = 0; l < k; ++l) {
       Coefficients difference = p;
-      for (int i = 0; i <= n; ++i) difference[i] -= leaf.curves[l].graph.p[i];
+      for (int i = 0; i <= n; ++i) difference[i] -= leaf.graphs[l].p[i];
       cross(difference);
     }
   }
@@ -106,30 +106,29 @@ ModePart narrowed(const RegionModes& modes, const ModePart& given, const Rectang
   return part;
 }
 
-/// The pieces of a leaf in one interval of sigma.
+/// The pieces of a leaf in intervals of sigma.
 class Cut {
  public:
   Cut(const Leaf& leaf, std::vector<Piece>& pieces) : leaf_(leaf), pieces_(pieces), scale_(leaf.box.ds() * leaf.box.dt()) {}
 
   void interval(double from, double to) {
     const double middle = 0.5 * (from + to);
-    std::uint64_t holds = 0;  // below all curves
+    std::uint64_t above = 0;  // bit k: the piece lies above curve k
     order_.clear();
-    for (std::size_t k = 0; k < leaf_.curves.size(); ++k) {
-      const LocalCurve& curve = leaf_.curves[k];
-      const double tau = curve.graph.at(middle);
+    for (std::size_t k = 0; k < leaf_.graphs.size(); ++k) {
+      const double tau = leaf_.graphs[k].at(middle);
       if (tau > -1 && tau < 1) order_.push_back({tau, static_cast<int>(k)});
-      if ((sign(curve) > 0) == (tau <= -1)) holds |= std::uint64_t{1} << k;
+      if (tau <= -1) above |= std::uint64_t{1} << k;
     }
     std::sort(order_.begin(), order_.end());
     double below = from - to, tau = -1;  // integral and middle of the lower end
     for (std::size_t k = 0; k <= order_.size(); ++k) {
       const bool last = k == order_.size();
-      const double above = last ? to - from : integral(leaf_.curves[order_[k].second].graph.p, from, to);
+      const double upper = last ? to - from : integral(leaf_.graphs[order_[k].second].p, from, to);
       const double next = last ? 1 : order_[k].first;
-      add(holds, scale_ * (above - below), next - tau);
-      if (!last) holds ^= std::uint64_t{1} << order_[k].second;
-      below = above, tau = next;
+      add(above, scale_ * (upper - below), next - tau);
+      if (!last) above |= std::uint64_t{1} << order_[k].second;
+      below = upper, tau = next;
     }
   }
   void thin(double width) { areas_.loose += 2 * width * scale_; }
@@ -137,21 +136,26 @@ class Cut {
   const Areas& areas() const { return areas_; }
 
  private:
-  static int sign(const LocalCurve& curve) { return curve.sign * curve.graph.rising; }
+  bool holds(std::size_t condition, std::uint64_t above) const {
+    const LocalCondition& c = leaf_.conditions[condition];
+    return ((above >> c.curve) & 1) == (c.sign > 0);
+  }
 
-  void add(std::uint64_t holds, double area, double width) {
-    const std::uint64_t edges = leaf_.curves.size() == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << leaf_.curves.size()) - 1;
-    if ((~holds & edges) >> leaf_.mode_curves != 0 && leaf_.mode_curves < leaf_.curves.size()) return;
+  void add(std::uint64_t above, double area, double width) {
+    for (std::size_t k = leaf_.of_modes; k < leaf_.conditions.size(); ++k)
+      if (!holds(k, above)) return;
     if (width < thinnest_piece) {
       areas_.loose += std::abs(area);
       return;
     }
+    std::uint64_t held = 0;
+    for (std::size_t k = 0; k < leaf_.of_modes; ++k) held |= std::uint64_t{holds(k, above)} << k;
     Piece piece{leaf_.everywhere, 0, area};
     for (const LeafMode& mode : leaf_.modes) {
-      const ModePart::Kind state = mode.state(holds);
+      const ModePart::Kind state = mode.state(held);
       if (state == ModePart::everywhere) piece.modes |= 1u << mode.mode;
       if (state == ModePart::unknown) piece.undecided |= 1u << mode.mode;
-      holds >>= mode.curves();
+      held >>= mode.curves();
     }
     if (piece.modes == 0) (piece.undecided == 0 ? areas_.robust : areas_.open) += area;
     if (piece.undecided != 0) areas_.unsure += area;
@@ -165,7 +169,67 @@ class Cut {
   Areas areas_;
 };
 
+/// The factor by which f is g, and how far it may be off anywhere on the rectangle; 0 if it is not.
+double factor(const CurvePolynomial& f, const CurvePolynomial& g, double& off) {
+  constexpr double same = 1e-11;  // relative: rounding of coefficients
+  if (f.degree != g.degree) return 0;
+  const int size = (f.degree + 1) * (f.degree + 2) / 2;
+  int greatest = 0;
+  for (int k = 1; k < 3; ++k)  // a graph is steep in one coordinate or the other, or constant
+    if (std::abs(g.f.c[k]) > std::abs(g.f.c[greatest])) greatest = k;
+  const double ratio = f.f.c[greatest] / g.f.c[greatest], allowed = same * std::abs(f.f.c[greatest]);
+  off = f.error + std::abs(ratio) * g.error;
+  for (int k = 0; k < size; ++k) {
+    const double apart = std::abs(f.f.c[k] - ratio * g.f.c[k]);
+    if (!(apart <= allowed)) return 0;
+    off += apart;
+  }
+  return ratio;
+}
+
 }  // namespace
+
+void Leaf::add(const CurvePolynomial& curve, int sign) {
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    double off = 0;
+    const double ratio = factor(curve, curves[k], off);
+    if (ratio == 0) continue;
+    curves[k].error = std::max(curves[k].error, off / std::abs(ratio));
+    conditions.push_back({static_cast<std::uint8_t>(k), static_cast<std::int8_t>(ratio > 0 ? sign : -sign)});
+    return;
+  }
+  conditions.push_back({static_cast<std::uint8_t>(curves.size()), static_cast<std::int8_t>(sign)});
+  curves.push_back(curve);
+}
+
+bool Leaf::find_graphs(double enough) {
+  if (conditions.size() > most_conditions) return false;
+  int level = 0;
+  for (const CurvePolynomial& curve : curves) {
+    const double along = std::abs(curve.f.c[place(1, 0)]), across = std::abs(curve.f.c[place(0, 1)]);
+    level += along < across ? 1 : along > across ? -1 : 0;
+  }
+  const auto exchange = [this] {
+    for (CurvePolynomial& curve : curves) curve = swapped(curve);
+  };
+  if (level < 0) exchange();
+  if (find_graphs_over_sigma(enough)) return true;
+  exchange();
+  return find_graphs_over_sigma(enough);
+}
+
+bool Leaf::find_graphs_over_sigma(double enough) {
+  if (!std::all_of(curves.begin(), curves.end(), may_be_graph)) return false;
+  graphs.clear();
+  for (const CurvePolynomial& curve : curves) {
+    const std::optional<Graph> graph = graph_of(curve, enough);
+    if (!graph) return false;
+    graphs.push_back(*graph);
+  }
+  for (LocalCondition& condition : conditions)
+    if (graphs[condition.curve].rising < 0) condition.sign = static_cast<std::int8_t>(-condition.sign);
+  return true;
+}
 
 ModePart::Kind LeafMode::state(std::uint64_t holds) const {
   if (!there.denominator) return state_of(there.part[0], holds);
@@ -188,7 +252,7 @@ ModeThere narrowed(const RegionModes& modes, int mode, const ModeThere& there, c
 
 Areas cut(const Leaf& leaf, std::vector<Piece>& pieces) {
   Cut cut(leaf, pieces);
-  for (const LocalCurve& curve : leaf.curves) cut.loosen(curve.graph.error);
+  for (const Graph& graph : leaf.graphs) cut.loosen(graph.error);
   const std::vector<double> at = breaks(leaf);
   for (std::size_t k = 0; k + 1 < at.size(); ++k)
     if (at[k + 1] - at[k] < thinnest_piece)

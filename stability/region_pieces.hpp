@@ -3,17 +3,13 @@
 // are feasible.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "stability/region_graph.hpp"
 #include "stability/region_rectangle.hpp"
 
 namespace surefoot::stability {
-
-/// A curve in a rectangle: the condition holds, or the polygon lies, where sign * curve > 0.
-struct LocalCurve : CurveCondition {
-  Graph graph;
-};
 
 /// A mode that is neither feasible in all of a rectangle nor in none of it.
 struct LeafMode {
@@ -32,15 +28,29 @@ struct LeafMode {
   int curves() const { return there.denominator ? 1 + there.part[0].count + there.part[1].count : there.part[0].count; }
 };
 
-/// In local coordinates, exchanged where `swapped`: sigma along t and tau along s.
+/// A condition on the side of one of a leaf's curves.
+struct LocalCondition {
+  std::uint8_t curve = 0;
+  std::int8_t sign = 1;  ///< holds where sign * curve > 0; after graphs are known, sign < 0: below the graph
+};
+
+/// A rectangle with its curves, in local coordinates of which sigma may be along s or along t.
 struct Leaf {
-  static constexpr std::size_t most_curves = 64;
+  static constexpr std::size_t most_conditions = 64;
   Rectangle box;
-  bool swapped = false;
   std::uint32_t everywhere = 0;  ///< modes feasible in all of it: bit k for modes()[k]
-  std::vector<LeafMode> modes;
-  std::vector<LocalCurve> curves;  ///< those of the modes in order, then those of the polygon
-  std::size_t mode_curves = 0;
+  std::span<const LeafMode> modes;
+  std::vector<CurvePolynomial> curves;  ///< all different
+  std::vector<Graph> graphs;
+  std::vector<LocalCondition> conditions;  ///< of the modes in order, then the edges of the polygon
+  std::size_t of_modes = 0;                ///< how many are of the modes
+
+  void add(const CurvePolynomial& curve, int sign);
+  /// All curves as graphs over sigma, or all over tau, to about `enough`. False where that is not shown to be possible.
+  bool find_graphs(double enough);
+
+ private:
+  bool find_graphs_over_sigma(double enough);
 };
 
 /// What is the same between two curves.
@@ -57,7 +67,7 @@ struct Areas {
   double loose = 0;   ///< bounds the error of all that: distances of graphs from curves, pieces too thin to be kept
 };
 
-/// The pieces of a leaf that lie in the polygon.
+/// Appends the pieces of a leaf that lie in the polygon.
 Areas cut(const Leaf& leaf, std::vector<Piece>& pieces);
 
 /// What is known in a rectangle is known in its parts, and more.

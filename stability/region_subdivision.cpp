@@ -33,7 +33,7 @@ void Subdivision::run(double error, int most) {
     const Node parent = std::move(nodes_[index]);
     nodes_[index].error = -1;  // gone
     error_ -= parent.error;
-    Rectangle one = parent.leaf.box, two = one;
+    Rectangle one = parent.box, two = one;
     if (one.b - one.a > one.hi - one.lo)
       one.b = two.a = one.s();
     else
@@ -56,11 +56,11 @@ void Subdivision::finish(Node& node) {
 void Subdivision::add(const Rectangle& box, const Node& parent) {
   ++rectangles_;
   Node node;
-  node.leaf.box = box;
-  node.leaf.everywhere = parent.leaf.everywhere;
+  node.box = box;
+  node.everywhere = parent.everywhere;
   if (!keep_edges(node, parent)) return;
   decide_modes(node, parent);
-  if (robust_only_ && node.leaf.everywhere != 0) return;
+  if (robust_only_ && node.everywhere != 0) return;
   measure(node);
   if (node.error == 0) {
     finish(node);
@@ -77,7 +77,7 @@ void Subdivision::measure(Node& node) {
   node.areas = {0, area, area, 0};
   const auto error_of = [this](const Areas& areas) { return areas.loose + (robust_only_ ? 0.5 * areas.open : areas.unsure); };
   if (find_graphs(node)) {
-    const Areas areas = cut(node.leaf, node.pieces);
+    const Areas areas = cut(leaf_, node.pieces);
     if (error_of(areas) <= error_of(node.areas))
       node.areas = areas;
     else
@@ -89,7 +89,7 @@ void Subdivision::measure(Node& node) {
 
 /// The edges that cross the rectangle; false where it lies outside of the polygon.
 bool Subdivision::keep_edges(Node& node, const Node& parent) const {
-  const Rectangle& box = node.leaf.box;
+  const Rectangle& box = node.box;
   for (std::uint64_t left = parent.edges; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     const Poly2& edge = modes_.edges()[k];
@@ -101,70 +101,50 @@ bool Subdivision::keep_edges(Node& node, const Node& parent) const {
 }
 
 void Subdivision::decide_modes(Node& node, const Node& parent) {
-  Leaf& leaf = node.leaf;
   local_edges_.clear();
   for (std::uint64_t left = node.edges; left != 0; left &= left - 1)
-    local_edges_.push_back(local(modes_.edges()[std::countr_zero(left)], leaf.box));
+    local_edges_.push_back(local(modes_.edges()[std::countr_zero(left)], node.box));
   const auto keep = [&](int mode, const ModeThere& there) {
     if (there.kind == ModePart::nowhere) return;
     if (there.kind == ModePart::everywhere) {
-      leaf.everywhere |= 1u << mode;
+      node.everywhere |= 1u << mode;
       return;
     }
     if (there.kind == ModePart::unknown) node.unknown |= 1u << mode;
-    leaf.modes.push_back({mode, there});
+    node.modes.push_back({mode, there});
   };
-  for (const LeafMode& known : parent.leaf.modes)
-    if (!(parent.unknown >> known.mode & 1)) keep(known.mode, narrowed(modes_, known.mode, known.there, leaf.box));
+  for (const LeafMode& known : parent.modes)
+    if (!(parent.unknown >> known.mode & 1)) keep(known.mode, narrowed(modes_, known.mode, known.there, node.box));
   for (std::uint32_t left = parent.unknown; left != 0; left &= left - 1) {
-    if (robust_only_ && leaf.everywhere != 0) return;
+    if (robust_only_ && node.everywhere != 0) return;
     const int k = std::countr_zero(left);
-    const ModeThere there = mode_there(modes_, k, leaf.box, local_edges_);
-    if (there.kind != ModePart::unknown) strips_ += std::min(there.strip, 1.0) * leaf.box.area();
+    const ModeThere there = mode_there(modes_, k, node.box, local_edges_);
+    if (there.kind != ModePart::unknown) strips_ += std::min(there.strip, 1.0) * node.box.area();
     keep(k, there);
   }
 }
 
-/// All curves as graphs over s, or all over t. False also where no curve tells anything.
-bool Subdivision::find_graphs(Node& node) const {
-  Leaf& leaf = node.leaf;
-  std::vector<CurvePolynomial> curves;
-  double level = 0, upright = 0;
-  bool exchanged_now = false;
-  const auto list = [&](const CurveCondition& condition) {
-    leaf.curves.push_back({condition, {}});
-    curves.push_back(curve_there(modes_, condition.curve, leaf.box));
-    level += std::abs(curves.back().f.c[place(0, 1)]) > std::abs(curves.back().f.c[place(1, 0)]);
-    upright += std::abs(curves.back().f.c[place(0, 1)]) < std::abs(curves.back().f.c[place(1, 0)]);
-  };
-  for (LeafMode& mode : leaf.modes) mode.list(list);
-  if (node.unknown != 0 && (leaf.curves.empty() || leaf.box.area() * 16384 > root_.area())) return false;
-  leaf.mode_curves = leaf.curves.size();
-  for (std::uint64_t left = node.edges; left != 0; left &= left - 1)
-    list({{CurveId::edge, -1, static_cast<signed char>(std::countr_zero(left)), -1, -1, 0}, 1});
-  if (leaf.curves.size() > Leaf::most_curves) return false;
+/// Puts the rectangle into leaf_. False where its curves are no graphs, or tell nothing.
+bool Subdivision::find_graphs(const Node& node) {
+  constexpr double largest = 1.0 / 16384;  // of the root: larger rectangles in which a mode is unknown are halved anyway
+  if (node.unknown != 0 && node.box.area() > largest * root_.area()) return false;
+  leaf_.box = node.box, leaf_.everywhere = node.everywhere, leaf_.modes = node.modes;
+  leaf_.curves.clear(), leaf_.conditions.clear(), leaf_.graphs.clear();
+  for (const LeafMode& mode : node.modes)
+    mode.list([&](const CurveCondition& c) { leaf_.add(curve_there(modes_, c.curve, node.box), c.sign); });
+  leaf_.of_modes = leaf_.conditions.size();
+  if (leaf_.of_modes == 0 && node.unknown != 0) return false;
+  for (std::uint64_t left = node.edges; left != 0; left &= left - 1) {
+    const CurveId id{CurveId::edge, -1, static_cast<signed char>(std::countr_zero(left)), -1, -1, 0};
+    leaf_.add(curve_there(modes_, id, node.box), 1);
+  }
   constexpr double share = 1e-4, least = 1e-15;  // of the error asked for, for one curve; rounding
-  const double enough = std::max(share * asked_ / leaf.box.area(), least);
-  const auto attempt = [&](bool exchanged) {
-    leaf.swapped = exchanged;
-    if (exchanged != exchanged_now) {
-      for (CurvePolynomial& curve : curves) curve = swapped(curve);
-      exchanged_now = exchanged;
-    }
-    if (!std::all_of(curves.begin(), curves.end(), may_be_graph)) return false;
-    for (std::size_t k = 0; k < curves.size(); ++k) {
-      const std::optional<Graph> graph = graph_of(curves[k], enough);
-      if (!graph) return false;
-      leaf.curves[k].graph = *graph;
-    }
-    return true;
-  };
-  return attempt(upright > level) || attempt(upright <= level);
+  return leaf_.find_graphs(std::max(share * asked_ / node.box.area(), least));
 }
 
 /// Of the part of the rectangle on the inner side of the edges that cross it.
 double Subdivision::area_inside(const Node& node) {
-  const Rectangle& box = node.leaf.box;
+  const Rectangle& box = node.box;
   if (node.edges == 0) return box.area();
   std::vector<Vector2d> part{{box.a, box.lo}, {box.b, box.lo}, {box.b, box.hi}, {box.a, box.hi}}, kept;
   for (std::uint64_t left = node.edges; left != 0; left &= left - 1) {

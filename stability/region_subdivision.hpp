@@ -30,7 +30,9 @@ class Subdivision {
 
  private:
   struct Node {
-    Leaf leaf;
+    Rectangle box;
+    std::uint32_t everywhere = 0;
+    std::vector<LeafMode> modes;  // neither everywhere nor nowhere
     std::uint32_t unknown = 0;  // modes to look at again in parts of it
     std::uint64_t edges = 0;    // of the polygon, that cross the rectangle
     std::vector<Piece> pieces;
@@ -40,8 +42,8 @@ class Subdivision {
   void add(const Rectangle& box, const Node& parent);
   bool keep_edges(Node& node, const Node& parent) const;
   void decide_modes(Node& node, const Node& parent);
-  bool find_graphs(Node& node) const;
   void measure(Node& node);
+  bool find_graphs(const Node& node);
   double area_inside(const Node& node);
   void finish(Node& node);
 
@@ -52,6 +54,7 @@ class Subdivision {
   std::vector<Piece> pieces_;
   std::priority_queue<std::pair<double, int>> open_;
   std::vector<Bivariate<2>> local_edges_;
+  Leaf leaf_;  // of the rectangle that is measured
   double asked_ = 0, error_ = 0, strips_ = 0, robust_ = 0, robust_error_ = 0;
   int rectangles_ = 0;
 };

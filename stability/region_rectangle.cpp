@@ -16,18 +16,18 @@ ModeThere known(ModePart::Kind kind) {
   return there;
 }
 
-ModeThere with_one_sign(const SignedMode& mode) {
+ModeThere with_one_sign(const SignedMode& mode, bool curves) {
   ModeThere there;
   const Margin margin = mode.margin_in_middle();
   there.feasible_in_middle = margin.value > 0;
-  mode.decide(margin, there.part[0], there.strip);
+  mode.decide(margin, curves, there.part[0], there.strip);
   there.kind = there.part[0].kind;
   return there;
 }
 
 /// Where D changes its sign. A covector does not notice; otherwise both signs, that of the middle first.
 ModeThere with_both_signs(const RegionModes& modes, int index, const Rectangle& rectangle, std::span<const Conic> edges,
-                          const Conic& d) {
+                          const Conic& d, bool curves) {
   ModeThere there;
   there.denominator = true;
   const int middle = d.c[0] > 0 ? 0 : 1;
@@ -38,7 +38,7 @@ ModeThere with_both_signs(const RegionModes& modes, int index, const Rectangle& 
       there.feasible_in_middle = margin.value > 0;
       if (!there.feasible_in_middle && excluded_by_covector(modes, index, rectangle)) return known(ModePart::nowhere);
     }
-    part.decide(margin, there.part[k], there.strip);
+    part.decide(margin, curves, there.part[k], there.strip);
     if (there.part[k].kind == ModePart::unknown) return there;
   }
   there.summarise();
@@ -56,19 +56,20 @@ void ModeThere::summarise() {
     kind = ModePart::by_curves;
 }
 
-ModeThere mode_there(const RegionModes& modes, int index, const Rectangle& rectangle, std::span<const Conic> edges) {
+ModeThere mode_there(const RegionModes& modes, int index, const Rectangle& rectangle, std::span<const Conic> edges,
+                     bool curves) {
   const RegionMode& mode = modes.modes()[index];
   if (mode.impossible) return known(ModePart::nowhere);
   ModeThere there;
   const Conic d = mode.has_denominator ? local(mode.denominator, rectangle) : Conic{{1, 0, 0, 0, 0, 0}};
   const double error = mode.has_denominator ? local_error(mode.denominator, rectangle) : 0;
   if (lower(d) > error || upper(d) < -error) {
-    there = with_one_sign(SignedMode(mode, rectangle, d.c[0] > 0 ? 1 : -1, edges, nullptr));
+    there = with_one_sign(SignedMode(mode, rectangle, d.c[0] > 0 ? 1 : -1, edges, nullptr), curves);
     if (there.kind == ModePart::unknown && mode.has_denominator && !there.feasible_in_middle &&
         excluded_by_covector(modes, index, rectangle))
       return known(ModePart::nowhere);
   } else {
-    there = with_both_signs(modes, index, rectangle, edges, d);
+    there = with_both_signs(modes, index, rectangle, edges, d, curves);
   }
   for (ModePart& part : there.part)
     for (int k = 0; k < part.count; ++k) part.condition[k].curve.mode = static_cast<signed char>(index);

@@ -51,9 +51,9 @@ struct ModeThere {
   void summarise();                 ///< sets `kind` from the parts
 };
 
-/// `edges` of the polygon that cross the rectangle, in its local coordinates.
+/// `edges` of the polygon that cross the rectangle, in its local coordinates. Without `curves` by_curves is not tried.
 ModeThere mode_there(const RegionModes& modes, int index, const Rectangle& rectangle,
-                     std::span<const Bivariate<2>> edges = {});
+                     std::span<const Bivariate<2>> edges = {}, bool curves = true);
 
 /// A curve in the local coordinates of a rectangle.
 CurvePolynomial curve_there(const RegionModes& modes, const CurveId& id, const Rectangle& rectangle);

@@ -24,7 +24,7 @@ SignedMode::SignedMode(const RegionMode& mode, const Rectangle& rectangle, doubl
   }
 }
 
-void SignedMode::decide(const Margin& m, ModePart& part, double& strip) const {
+void SignedMode::decide(const Margin& m, bool curves, ModePart& part, double& strip) const {
   const bool feasible = m.value > 0;
   double own = 0;
   if (m.count == 0 || (feasible && witnessed(m.u, m.w, own)))
@@ -33,7 +33,7 @@ void SignedMode::decide(const Margin& m, ModePart& part, double& strip) const {
     part.kind = ModePart::nowhere;
   else if (const Box box = feasible ? Box{} : remaining_box(); box.empty || (!feasible && excluded(m, box, own)))
     part.kind = ModePart::nowhere;
-  if (part.kind == ModePart::unknown && !(denominator_ && beside_denominator(part))) {
+  if (part.kind == ModePart::unknown && curves && !(denominator_ && beside_denominator(part))) {
     const Margin near = margin_on_curve(m);
     own = 0;
     if (!feasible && !(near.value > 0) && !(near.basis == m.basis) && excluded(near, {}, own))

@@ -49,7 +49,7 @@ class SignedMode {
 
   /// In the middle of the rectangle, or of that part of it where the denominator is positive.
   Margin margin_in_middle() const { return margin_at(sigma_, tau_); }
-  void decide(const Margin& in_middle, ModePart& part, double& strip) const;
+  void decide(const Margin& in_middle, bool curves, ModePart& part, double& strip) const;
 
  private:
   Margin margin_at(double sigma, double tau) const;

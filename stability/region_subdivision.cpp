@@ -118,7 +118,7 @@ void Subdivision::decide_modes(Node& node, const Node& parent) {
   for (std::uint32_t left = parent.unknown; left != 0; left &= left - 1) {
     if (robust_only_ && node.everywhere != 0) return;
     const int k = std::countr_zero(left);
-    const ModeThere there = mode_there(modes_, k, node.box, local_edges_);
+    const ModeThere there = mode_there(modes_, k, node.box, local_edges_, node.unknown == 0 || !large(node));
     if (there.kind != ModePart::unknown) strips_ += std::min(there.strip, 1.0) * node.box.area();
     keep(k, there);
   }
@@ -126,8 +126,7 @@ void Subdivision::decide_modes(Node& node, const Node& parent) {
 
 /// Puts the rectangle into leaf_. False where its curves are no graphs, or tell nothing.
 bool Subdivision::find_graphs(const Node& node) {
-  constexpr double largest = 1.0 / 16384;  // of the root: larger rectangles in which a mode is unknown are halved anyway
-  if (node.unknown != 0 && node.box.area() > largest * root_.area()) return false;
+  if (node.unknown != 0 && large(node)) return false;
   leaf_.box = node.box, leaf_.everywhere = node.everywhere, leaf_.modes = node.modes;
   leaf_.curves.clear(), leaf_.conditions.clear(), leaf_.graphs.clear();
   for (const LeafMode& mode : node.modes)

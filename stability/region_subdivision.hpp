@@ -44,7 +44,7 @@ class Subdivision {
   void decide_modes(Node& node, const Node& parent);
   /// If a mode is unknown, it will be halved anyway.
   bool large(const Node& node) const { return node.box.area() > largest * root_.area(); }
-  static constexpr double largest = 1.0 / 16384;
+  static constexpr double largest = 1.0 / 65536;
   void measure(Node& node);
   bool find_graphs(const Node& node);
   double area_inside(const Node& node);

@@ -94,38 +94,50 @@ class Finish {
   double robust_ = 0;
 };
 
-/// The modes at x: by the oracle, or for boxes that are not about gravity by rows in doubles with their error bound;
-/// none where that does not decide.
-std::optional<std::vector<ContactMode>> modes_at(std::span<const Contact> contacts, double rho, const RegionSetup& setup,
-                                                 const WrenchBox& box, const Finish& finish, const Vector2d& x) {
-  std::vector<ContactMode> list;
-  if (box.centred()) {
-    for (const ContactMode& mode : RobustOracle(contacts, rho, {box.kappa, box.nu}).feasible_modes(x))
-      if (std::find(list.begin(), list.end(), mode) == list.end()) list.push_back(mode);
-    return list;
+/// The modes at a point: by the oracle, or for boxes that are not about gravity by rows in doubles with their error
+/// bound; none where that does not decide.
+class ModesAt {
+ public:
+  ModesAt(std::span<const Contact> contacts, double rho, const RegionSetup& setup, const WrenchBox& box, const Finish& finish)
+      : setup_(setup), box_(box), finish_(finish) {
+    if (box.centred()) oracle_.emplace(contacts, rho, DisturbanceBox{box.kappa, box.nu});
   }
-  const RegionModes here(setup.posture, box, x, Vector2d::UnitX());
-  std::uint32_t found = 0;
-  for (int k = 0; k < static_cast<int>(here.modes().size()); ++k) {
-    const ModeThere there = mode_there(here, k, {});
-    if (there.kind == ModePart::everywhere) found |= 1u << k;
-    if (there.kind != ModePart::everywhere && there.kind != ModePart::nowhere) return std::nullopt;
+
+  std::optional<std::vector<ContactMode>> operator()(const Vector2d& x) const {
+    std::vector<ContactMode> list;
+    if (oracle_) {
+      for (const ContactMode& mode : oracle_->feasible_modes(x))
+        if (std::find(list.begin(), list.end(), mode) == list.end()) list.push_back(mode);
+      return list;
+    }
+    const RegionModes here(setup_.posture, box_, x, Vector2d::UnitX());
+    std::uint32_t found = 0;
+    for (int k = 0; k < static_cast<int>(here.modes().size()); ++k) {
+      const ModeThere there = mode_there(here, k, {});
+      if (there.kind == ModePart::everywhere) found |= 1u << k;
+      if (there.kind != ModePart::everywhere && there.kind != ModePart::nowhere) return std::nullopt;
+    }
+    return finish_.named(found);
   }
-  return finish.named(found);
-}
+
+ private:
+  const RegionSetup& setup_;
+  const WrenchBox& box_;
+  const Finish& finish_;
+  std::optional<RobustOracle> oracle_;
+};
 
 /// Cells whose modes are not confirmed at a point inside: counted, and said. Small ones are remains of what the sweep
 /// passed over; they are dropped.
-double disputed_area(Region& region, std::span<const Contact> contacts, double rho, const RegionSetup& setup,
-                     const WrenchBox& box, const Finish& finish) {
+double disputed_area(Region& region, const ModesAt& modes_at, double area) {
   constexpr double small = 1e-5;  // of R_SS(W)
   double disputed = 0;
   for (RegionCell& cell : region.cells) {
-    const auto expected = modes_at(contacts, rho, setup, box, finish, cell.inside);
+    const auto expected = modes_at(cell.inside);
     cell.confirmed = expected && std::is_permutation(expected->begin(), expected->end(), cell.modes.begin(), cell.modes.end());
     if (!cell.confirmed) disputed += cell.area;
   }
-  std::erase_if(region.cells, [&](const RegionCell& cell) { return !cell.confirmed && cell.area < small * setup.area; });
+  std::erase_if(region.cells, [&](const RegionCell& cell) { return !cell.confirmed && cell.area < small * area; });
   if (std::any_of(region.cells.begin(), region.cells.end(), [](const RegionCell& cell) { return !cell.confirmed; }))
     region.note = "a cell's modes are not confirmed at a point inside; its area counts as error";
   return disputed;
@@ -181,7 +193,7 @@ Region region(std::span<const Contact> contacts, double radius_of_gyration, cons
   finish.cells(found);
   if (options.curves) finish.boundaries(found, setup.polygon);
   result.lines = sweep.lines();
-  const double disputed = disputed_area(result, contacts, radius_of_gyration, setup, box, finish);
+  const double disputed = disputed_area(result, {contacts, radius_of_gyration, setup, box, finish}, setup.area);
 
   const Proof all = prove(setup, options.area_tolerance, false, most_rectangles_for_cells);
   result.cells_error = std::min(difference(all, found) + all.error + disputed, 2 * setup.area);  // all in the wrong cells

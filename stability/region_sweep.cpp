@@ -124,6 +124,7 @@ SweepLine Sweep::solve(double s) {
     solve_line(modes_.modes()[k], k, s, line.lo, line.hi, set);
     if (set.at_begin) line.begin_modes |= 1u << k;
     line.uncertain |= set.uncertain;
+    steps_ += set.steps;
     line.at.insert(line.at.end(), set.crossings.begin(), set.crossings.end());
   }
   const double reach = 1e-6 * (line.hi - line.lo), close = closeness(line);
@@ -176,6 +177,7 @@ void Sweep::run() {
     }
     refine(from, at_from, b, solve(b - inset_), 0);
   }
+  effort_of_run_ = effort();
 }
 
 }  // namespace surefoot::stability

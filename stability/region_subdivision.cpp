@@ -118,7 +118,8 @@ void Subdivision::decide_modes(Node& node, const Node& parent) {
   for (std::uint32_t left = parent.unknown; left != 0; left &= left - 1) {
     if (robust_only_ && node.everywhere != 0) return;
     const int k = std::countr_zero(left);
-    const ModeThere there = mode_there(modes_, k, node.box, local_edges_, node.unknown == 0 || !large(node));
+    const bool curves = node.unknown == 0 ? !very_large(node) : !large(node);
+    const ModeThere there = mode_there(modes_, k, node.box, local_edges_, curves);
     if (there.kind != ModePart::unknown) strips_ += std::min(there.strip, 1.0) * node.box.area();
     keep(k, there);
   }

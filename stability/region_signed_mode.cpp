@@ -38,10 +38,10 @@ void SignedMode::decide(const Margin& m, bool curves, ModePart& part, double& st
     own = 0;
     if (!feasible && !(near.value > 0) && !(near.basis == m.basis) && excluded(near, {}, own))
       part.kind = ModePart::nowhere;
-    else if (own = 0; true)
+    else
       by_curves(near.basis, part);
   }
-  strip += own;
+  if (part.kind == ModePart::nowhere || part.kind == ModePart::everywhere) strip += own;
 }
 
 Margin SignedMode::margin_at(double sigma, double tau) const {

@@ -78,7 +78,7 @@ class SignedMode {
 
   // ---- curves -----------------------------------------------------------------------------------------------------
 
-  /// By the curves of the sides that a basis lies on, or of all sides.
+  /// By the curves of a side that a basis lies on, or of two sides that meet there; or within W.
   bool by_curves(const CurveId& id, ModePart& part) const;
 
   /// A row on a side: e + g times the free coordinate.

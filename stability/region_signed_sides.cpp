@@ -87,7 +87,7 @@ bool SignedMode::by_two_sides(const SideConditions& one, const SideConditions& o
     for (const SideConditions::Open& g : other.listed()) {
       if (f.necessary || g.necessary) continue;
       const int i = f.curve.a, j = g.curve.a;
-      if (i != j && !has_pair(one, i, j) && !has_pair(other, i, j)) return false;
+      if (i == j || (!has_pair(one, i, j) && !has_pair(other, i, j))) return false;
     }
   ModePart found;
   found.kind = ModePart::by_curves;

@@ -1,5 +1,7 @@
 // Area of R(W): error against time for five methods, as CSV on stdout.
 //   bench_region                  the postures of theory section 9
+//   bench_region --stances [NAME] instead: region_areas to 1e-6 on every stance of docs/regions.md and of the stored plans of
+//                                 the canned scenes: times, proved error, rectangles
 //   bench_region --random N       instead: areas of N random postures against grids of oracle calls, within the grids'
 //                                 error and the stated one; times
 //   bench_region --extremes [N]   instead: the catalogue of extreme postures, every Nth: time and stated error by group
@@ -17,6 +19,7 @@
 #include <vector>
 
 #include "bench/region_methods.hpp"
+#include "bench/region_stances.hpp"
 #include "stability/region.hpp"
 #include "tests/support/extreme_cases.hpp"
 #include "tests/support/region_reference.hpp"
@@ -91,6 +94,32 @@ void compare(const Stance& stance) {
     area = {r.robust_area, r.area_error};
   });
   row("region with cells and curves", 1e-6, ms, area);
+}
+
+/// One row for a group of stances; the time of a stance is the least of some runs.
+void stance_row(const StanceGroup& group) {
+  std::vector<double> ms;
+  double error = 0;
+  int rectangles = 0, proved = 0;
+  for (const Stance& stance : group.stances) {
+    RegionAreas areas;
+    ms.push_back(least_time([&] { areas = region_areas(stance.contacts, stance.rho, wrenches(stance.box)); }));
+    const double relative = areas.equilibrium > 0 ? areas.error / areas.equilibrium : 0;
+    error = std::max(error, relative);
+    rectangles = std::max(rectangles, areas.rectangles);
+    proved += relative <= 1e-6;
+  }
+  std::sort(ms.begin(), ms.end());
+  const auto fast = std::upper_bound(ms.begin(), ms.end(), 1.0) - ms.begin();
+  std::printf("%s,%zu,%.3f,%.3f,%td,%d,%.1e,%d\n", group.name.c_str(), ms.size(), ms[ms.size() / 2], ms.back(), fast, proved,
+              error, rectangles);
+}
+
+void stances(const char* name) {
+  std::printf("posture or scene,stances,median ms,slowest ms,within 1 ms,proved to 1e-6,greatest error,most rectangles\n");
+  for (const auto& groups : {drawn_postures(), canned_stances()})
+    for (const StanceGroup& group : groups)
+      if (name == nullptr || group.name == name) stance_row(group);
 }
 
 int random_postures(int count) {
@@ -169,6 +198,10 @@ int main(int count, char** words) {
   if (count == 3 && std::strcmp(words[1], "--random") == 0) return random_postures(std::atoi(words[2]));
   if (count >= 2 && std::strcmp(words[1], "--extremes") == 0) {
     extremes(count == 3 ? std::max<std::size_t>(1, std::strtoul(words[2], nullptr, 10)) : 1);
+    return 0;
+  }
+  if (count >= 2 && std::strcmp(words[1], "--stances") == 0) {
+    stances(count == 3 ? words[2] : nullptr);
     return 0;
   }
   constexpr double degree = std::numbers::pi / 180;

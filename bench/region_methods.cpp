@@ -62,9 +62,9 @@ class Quadtree {
     bool refused = false;
     for (int mode = 0; mode < static_cast<int>(modes_.modes().size()); ++mode) {
       const ModeThere there = mode_there(modes_, mode, {s - ds, s + ds, t - dt, t + dt});
-      if (there.kind == ModeThere::nowhere) continue;
+      if (there.kind == ModePart::nowhere) continue;
       inside = false;
-      refused |= there.kind == ModeThere::everywhere;
+      refused |= there.kind == ModePart::everywhere;
     }
     if (refused) return;
     if (inside) {

@@ -37,7 +37,7 @@ class Picture {
  public:
   Picture(const RegionFigure& figure, const Region& region)
       : figure_(figure), region_(region), window_(window()), view_(view()), size_(window_.sizes() * view_.scale),
-        canvas_(left + size_.x() + gap + key_width, top + std::max(size_.y(), key_height()) + bottom_room, figure.title) {}
+        canvas_(left + size_.x() + gap + key_width, top + std::max(size_.y() + bottom_room, key_height()), figure.title) {}
 
   std::string draw() {
     heading();
@@ -79,7 +79,7 @@ class Picture {
     return {{window_.min().x(), window_.max().y()}, {left, top}, scale};
   }
 
-  double key_height() const { return 60 + 34.0 * static_cast<double>(std::min(region_.cells.size(), most_in_key + 1)) + 120; }
+  double key_height() const { return 150 + 34.0 * static_cast<double>(std::min(region_.cells.size(), most_in_key + 1)); }
 
   std::string share(double area) const {
     return region_.equilibrium_area > 0 ? fmt::format("{:.3g} %", 100 * area / region_.equilibrium_area) : "-";
@@ -198,28 +198,64 @@ class Picture {
     return part[0] + middle / twice;
   }
 
+  struct Number {
+    std::size_t cell;
+    Vector2d at, place;  // [px] in the cell, of the number
+  };
+
   /// Inside the cell where there is room, else beside it on a leader.
   void numbers() {
+    constexpr double least_room = 500, aside = 44;  // [px^2], [px]
     std::vector<Vector2d> taken;
-    for (const auto& contact : figure_.contacts) taken.push_back(view_(contact.position));
+    for (const auto& contact : figure_.contacts) {
+      const Vector2d at = view_(contact.position), n = contact.normal.stableNormalized();
+      for (const double along : {-34.0, -17.0, 0.0, 17.0, 34.0}) taken.push_back(at + along * Vector2d(n.y(), n.x()));
+    }
+    std::vector<Number> inside, beside;
     for (std::size_t k = 0; k < std::min(region_.cells.size(), most_in_key); ++k) {
-      const RegionCell& cell = region_.cells[k];
-      const std::optional<Vector2d> shown = shown_point(cell);
+      const std::optional<Vector2d> shown = shown_point(region_.cells[k]);
       if (!shown) continue;
       const Vector2d at = view_(*shown);
-      const double room = cell.area * view_.scale * view_.scale;
-      Vector2d place = at;
-      constexpr double least_room = 500;  // [px^2]
-      if (room < least_room) place = at + Vector2d(at.x() < left + 0.5 * size_.x() ? -44 : 44, 0);
-      for (int tries = 0; tries < 12; ++tries) {
-        const auto clash = std::find_if(taken.begin(), taken.end(), [&](const Vector2d& p) { return (p - place).norm() < 16; });
-        if (clash == taken.end()) break;
-        place.y() += 16;
+      if (region_.cells[k].area * view_.scale * view_.scale >= least_room) {
+        inside.push_back({k, at, free_place(at, taken)});
+        taken.push_back(inside.back().place);
+      } else {
+        beside.push_back({k, at, at + Vector2d(at.x() < left + 0.5 * size_.x() ? -aside : aside, 0)});
       }
-      taken.push_back(place);
-      if ((place - at).norm() > 20) canvas_.line(at, place, {.stroke = faint, .width = 0.7});
-      canvas_.text(place + Vector2d(0, 4), std::to_string(k + 1), {.size = 12, .anchor = "middle", .bold = true, .halo = true});
     }
+    move_apart(beside);
+    for (const Number& number : inside) write(number);
+    for (const Number& number : beside) write(number);
+  }
+
+  static Vector2d free_place(Vector2d place, const std::vector<Vector2d>& taken) {
+    for (int tries = 0; tries < 12; ++tries, place.y() += 16)
+      if (std::none_of(taken.begin(), taken.end(), [&](const Vector2d& p) { return (p - place).norm() < 16; })) break;
+    return place;
+  }
+
+  /// From top to bottom in the order of their cells, so that leaders do not cross.
+  static void move_apart(std::vector<Number>& numbers) {
+    constexpr double line = 15, column = 40;  // [px]
+    constexpr int rounds = 200;
+    std::sort(numbers.begin(), numbers.end(), [](const Number& a, const Number& b) { return a.at.y() < b.at.y(); });
+    for (int round = 0; round < rounds; ++round)
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        for (std::size_t k = i + 1; k < numbers.size(); ++k) {
+          Vector2d &upper = numbers[i].place, &lower = numbers[k].place;
+          const double missing = line - (lower.y() - upper.y());
+          if (std::abs(lower.x() - upper.x()) > column || missing <= 0) continue;
+          const bool right = upper.x() > numbers[i].at.x();  // one below the other
+          upper.x() = lower.x() = right ? std::max(upper.x(), lower.x()) : std::min(upper.x(), lower.x());
+          upper.y() -= 0.5 * missing, lower.y() += 0.5 * missing;
+        }
+  }
+
+  void write(const Number& number) {
+    const Vector2d way = number.place - number.at;
+    if (way.norm() > 20) canvas_.line(number.at, number.place - 9 * way.normalized(), {.stroke = faint, .width = 0.7});
+    canvas_.text(number.place + Vector2d(0, 4), std::to_string(number.cell + 1),
+                 {.size = 12, .anchor = "middle", .bold = true, .halo = true});
   }
 
   /// rho, nu and a scale as lengths below the frame.

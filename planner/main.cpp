@@ -98,7 +98,8 @@ CLI::App* add_region(CLI::App& app, RegionArguments& a) {
   CLI::App* region = app.add_subcommand("region", "Stability regions of a stance: where the COM may be, and what forbids the rest");
   region->add_option("SCENE", a.scene, "scene file (YAML), - for standard input");
   region->add_option("--posture", a.posture, "instead of a scene: a query line without com (JSON)")->type_name("FILE");
-  region->add_option("--stance", a.stance, "legs that stand (default: the scene's first stance)")->type_name("LEG,LEG");
+  region->add_option("--stance", a.stance, "two or three legs that stand (default: the scene's first stance)")
+      ->type_name("LEG,LEG");
   region->add_option("--wrench", a.wrench, "one wrench p,q [1, m] instead of the box W")->type_name("P,Q");
   region->add_option("--window", a.window, "clip to this rectangle [m]")->type_name("XMIN,YMIN,XMAX,YMAX");
   region->add_option("--svg", a.svg, "draw it; - for standard output")->type_name("FILE");

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "stability/region_cells.hpp"
-#include "stability/region_pieces.hpp"
 #include "stability/region_setup.hpp"
+#include "stability/region_subdivision.hpp"
 #include "stability/region_sweep.hpp"
 
 namespace surefoot::stability {
@@ -18,9 +18,8 @@ constexpr double rounding = 1e-14;  // of sums of products of coordinates, relat
 
 /// Areas by a subdivision: what its rectangles prove.
 struct Proof {
-  double robust = 0;  ///< [m^2] surely robust
-  double error = 0;   ///< [m^2] of any sum of areas
-  double open = 0;    ///< [m^2] undecided, part of `error`
+  double robust = 0, robust_error = 0;  ///< [m^2]
+  double error = 0;                     ///< [m^2] of any sum of areas
   std::map<std::uint32_t, double> area;  ///< [m^2] by the set of modes; only if all modes were looked at
   int rectangles = 0;
 };
@@ -28,17 +27,9 @@ struct Proof {
 Proof prove(const RegionSetup& setup, double tolerance, bool robust_only, int most_rectangles) {
   Subdivision subdivision(*setup.modes, setup.local, robust_only);
   subdivision.run(tolerance * setup.area, most_rectangles);
-  Proof proof;
-  std::vector<Piece> pieces;
-  for (std::size_t k = 0; k < subdivision.leaves().size(); ++k)
-    proof.error += cut(subdivision.leaves()[k], static_cast<int>(k), pieces);
-  for (const Piece& piece : pieces) {
-    if (piece.modes == 0) proof.robust += piece.area;
-    if (!robust_only) proof.area[piece.modes] += piece.area;
-  }
-  proof.open = (robust_only ? 2 : 1) * subdivision.open_area();
-  proof.error += subdivision.error() + (robust_only ? subdivision.open_area() : 0) + rounding * setup.area;
-  proof.rectangles = subdivision.rectangles();
+  Proof proof{subdivision.robust(), subdivision.robust_error() + rounding * setup.area,
+              subdivision.error() + rounding * setup.area, {}, subdivision.rectangles()};
+  for (const Piece& piece : subdivision.pieces()) proof.area[piece.modes] += piece.area;
   return proof;
 }
 
@@ -103,38 +94,50 @@ class Finish {
   double robust_ = 0;
 };
 
-/// The modes at x: by the oracle, or for boxes that are not about gravity by rows in doubles with their error bound;
-/// none where that does not decide.
-std::optional<std::vector<ContactMode>> modes_at(std::span<const Contact> contacts, double rho, const RegionSetup& setup,
-                                                 const WrenchBox& box, const Finish& finish, const Vector2d& x) {
-  std::vector<ContactMode> list;
-  if (box.centred()) {
-    for (const ContactMode& mode : RobustOracle(contacts, rho, {box.kappa, box.nu}).feasible_modes(x))
-      if (std::find(list.begin(), list.end(), mode) == list.end()) list.push_back(mode);
-    return list;
+/// The modes at a point: by the oracle, or for boxes that are not about gravity by rows in doubles with their error
+/// bound; none where that does not decide.
+class ModesAt {
+ public:
+  ModesAt(std::span<const Contact> contacts, double rho, const RegionSetup& setup, const WrenchBox& box, const Finish& finish)
+      : setup_(setup), box_(box), finish_(finish) {
+    if (box.centred()) oracle_.emplace(contacts, rho, DisturbanceBox{box.kappa, box.nu});
   }
-  const RegionModes here(setup.posture, box, x, Vector2d::UnitX());
-  std::uint32_t found = 0;
-  for (int k = 0; k < static_cast<int>(here.modes().size()); ++k) {
-    const ModeThere there = mode_there(here, k, {});
-    if (there.kind == ModeThere::everywhere) found |= 1u << k;
-    if (there.kind != ModeThere::everywhere && there.kind != ModeThere::nowhere) return std::nullopt;
+
+  std::optional<std::vector<ContactMode>> operator()(const Vector2d& x) const {
+    std::vector<ContactMode> list;
+    if (oracle_) {
+      for (const ContactMode& mode : oracle_->feasible_modes(x))
+        if (std::find(list.begin(), list.end(), mode) == list.end()) list.push_back(mode);
+      return list;
+    }
+    const RegionModes here(setup_.posture, box_, x, Vector2d::UnitX());
+    std::uint32_t found = 0;
+    for (int k = 0; k < static_cast<int>(here.modes().size()); ++k) {
+      const ModeThere there = mode_there(here, k, {});
+      if (there.kind == ModePart::everywhere) found |= 1u << k;
+      if (there.kind != ModePart::everywhere && there.kind != ModePart::nowhere) return std::nullopt;
+    }
+    return finish_.named(found);
   }
-  return finish.named(found);
-}
+
+ private:
+  const RegionSetup& setup_;
+  const WrenchBox& box_;
+  const Finish& finish_;
+  std::optional<RobustOracle> oracle_;
+};
 
 /// Cells whose modes are not confirmed at a point inside: counted, and said. Small ones are remains of what the sweep
 /// passed over; they are dropped.
-double disputed_area(Region& region, std::span<const Contact> contacts, double rho, const RegionSetup& setup,
-                     const WrenchBox& box, const Finish& finish) {
+double disputed_area(Region& region, const ModesAt& modes_at, double area) {
   constexpr double small = 1e-5;  // of R_SS(W)
   double disputed = 0;
   for (RegionCell& cell : region.cells) {
-    const auto expected = modes_at(contacts, rho, setup, box, finish, cell.inside);
+    const auto expected = modes_at(cell.inside);
     cell.confirmed = expected && std::is_permutation(expected->begin(), expected->end(), cell.modes.begin(), cell.modes.end());
     if (!cell.confirmed) disputed += cell.area;
   }
-  std::erase_if(region.cells, [&](const RegionCell& cell) { return !cell.confirmed && cell.area < small * setup.area; });
+  std::erase_if(region.cells, [&](const RegionCell& cell) { return !cell.confirmed && cell.area < small * area; });
   if (std::any_of(region.cells.begin(), region.cells.end(), [](const RegionCell& cell) { return !cell.confirmed; }))
     region.note = "a cell's modes are not confirmed at a point inside; its area counts as error";
   return disputed;
@@ -149,11 +152,10 @@ double difference(const Proof& proof, const SweepCells& found) {
   return sum;
 }
 
-/// The area of R(W) from the cells, if the proof admits it, else the middle of what that admits.
+/// The area of R(W) from the cells, if the proof admits it, else that of the proof.
 void settle(Region& region, double from_cells, const Proof& proof) {
-  const double middle = proof.robust + 0.5 * proof.open, half = proof.error - 0.5 * proof.open;
-  region.robust_area = std::abs(from_cells - middle) <= half ? from_cells : middle;
-  region.area_error = std::min(half + std::abs(region.robust_area - middle), region.equilibrium_area);
+  region.robust_area = std::abs(from_cells - proof.robust) <= proof.robust_error ? from_cells : proof.robust;
+  region.area_error = std::min(proof.robust_error + std::abs(region.robust_area - proof.robust), region.equilibrium_area);
   region.rectangles += proof.rectangles;
 }
 
@@ -168,8 +170,8 @@ RegionAreas region_areas(std::span<const Contact> contacts, double radius_of_gyr
   areas.equilibrium = setup.area;
   if (!(setup.area > 0)) return areas;
   const Proof proof = prove(setup, options.area_tolerance, true, most_rectangles);
-  areas.robust = std::min(proof.robust + 0.5 * proof.open, setup.area);
-  areas.error = std::min(proof.error - 0.5 * proof.open, setup.area);
+  areas.robust = std::min(proof.robust, setup.area);
+  areas.error = std::min(proof.robust_error, setup.area);
   areas.rectangles = proof.rectangles;
   return areas;
 }
@@ -191,7 +193,7 @@ Region region(std::span<const Contact> contacts, double radius_of_gyration, cons
   finish.cells(found);
   if (options.curves) finish.boundaries(found, setup.polygon);
   result.lines = sweep.lines();
-  const double disputed = disputed_area(result, contacts, radius_of_gyration, setup, box, finish);
+  const double disputed = disputed_area(result, {contacts, radius_of_gyration, setup, box, finish}, setup.area);
 
   const Proof all = prove(setup, options.area_tolerance, false, most_rectangles_for_cells);
   result.cells_error = std::min(difference(all, found) + all.error + disputed, 2 * setup.area);  // all in the wrong cells

@@ -4,9 +4,9 @@
 //
 // Two methods that share the rows of the modes and the certificates that exclude one from a rectangle.
 //   Subdivision (region_subdivision.hpp), for proof: rectangles are halved until certificates decide every mode in
-//     them, or show that its boundary is one curve; the curve is then enclosed by a polynomial. What is undecided counts
-//     as error. It needs no list of curves, touching and coinciding ones included, and gives the areas of R_SS(W) and
-//     R(W) with a bound (region_areas).
+//     them, or show by the signs of which curves it is decided; these are then enclosed by polynomials. What is
+//     undecided counts as error. It needs no list of curves, touching and coinciding ones included, and gives the areas
+//     of R_SS(W) and R(W) with a bound (region_areas).
 //   Sweep (region_sweep.hpp), for the arrangement: on straight lines the problem is solved exactly, between the places
 //     where the order of curves changes the ends of all intervals are smooth and integrated by Gauss-Kronrod rules. It
 //     gives cells with their rings, and areas to about ten digits, but can miss what lies between two of its lines.
@@ -80,7 +80,7 @@ struct Region {
 Region region(std::span<const Contact> contacts, double radius_of_gyration, const WrenchBox& box,
               const RegionOptions& options = {});
 
-/// The areas alone, at a fraction of the cost: typically 100 to 700 rectangles of 2 us.
+/// The areas alone, at a fraction of the cost: typically 100 to 500 rectangles of 1 to 3 us.
 struct RegionAreas {
   double equilibrium = 0, robust = 0;  ///< [m^2] of R_SS(W), clipped, and of R(W)
   double error = 0;                    ///< [m^2] bounds the error of both
@@ -91,7 +91,7 @@ struct RegionAreas {
 RegionAreas region_areas(std::span<const Contact> contacts, double radius_of_gyration, const WrenchBox& box,
                          const RegionOptions& options = {});
 
-/// The work is bounded: what is undecided after this many rectangles counts as error. Typical: 100 to 1000.
+/// The work is bounded: what is undecided after this many rectangles counts as error. Typical: 100 to 500.
 constexpr int most_rectangles = 3000, most_rectangles_for_cells = 2000;
 
 /// R_SS(W) as half-planes with what bounds them in words; for a box about gravity those of

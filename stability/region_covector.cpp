@@ -38,6 +38,9 @@ class Excluder {
     }
     x_ = {middle->x(), 0, 0}, m_ = {middle->y(), 0, 0};
     if (holds()) return true;
+    scale_ = promising;
+    if (!holds()) return false;
+    scale_ = 1;
     const auto right = proposal(1, 0), left = proposal(-1, 0), top = proposal(0, 1), bottom = proposal(0, -1);
     if (!right || !left || !top || !bottom) return false;
     const Vector2d along_s = 0.5 * (*right - *left), along_t = 0.5 * (*top - *bottom);
@@ -59,7 +62,7 @@ class Excluder {
   /// The contact seen from the COM.
   Vec2<Affine> offset(int contact) const {
     const Vec2<double>& r = frame_.at[contact].r;
-    const Vector2d s = modes_.e_s() * rectangle_.ds(), t = modes_.e_t() * rectangle_.dt();
+    const Vector2d s = modes_.e_s() * (scale_ * rectangle_.ds()), t = modes_.e_t() * (scale_ * rectangle_.dt());
     return {{r.x, -s.x(), -t.x()}, {r.y, -s.y(), -t.y()}};
   }
 
@@ -97,7 +100,9 @@ class Excluder {
   const DualCertificate& certificate_;
   const ModeSpec& spec_;
   Frame<double> frame_;
-  double radius_ = 0;
+  /// A covector that does not even hold in a part of the rectangle as it is need not be made affine.
+  static constexpr double promising = 0.5;
+  double radius_ = 0, scale_ = 1;
   Affine x_, m_;
 };
 

@@ -113,7 +113,8 @@ void Sweep::reconcile(const SweepLine& first, SweepLine& second) const {
 /// the work is limited by looking less closely, which area_error shows.
 double Sweep::thinnest() const {
   constexpr int many = 250;  // lines; typical: 100
-  const double part = lines_ < many ? least_slab : lines_ < 2 * many ? 1e-5 : lines_ < 4 * many ? 1e-3 : 1;
+  const double spent = effort();
+  const double part = spent < many ? least_slab : spent < 2 * many ? 1e-5 : spent < 4 * many ? 1e-3 : 1;
   return part * (s_end_ - s_begin_);
 }
 

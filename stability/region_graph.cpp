@@ -9,21 +9,30 @@ namespace {
 constexpr int n = Graph::degree;
 using Coefficients = std::array<double, n + 1>;
 
-/// Product without terms of order above `order`.
-Coefficients product(const Coefficients& a, const Coefficients& b, int order) {
+/// A polynomial in sigma of degree `degree`; higher coefficients are zero.
+struct Series {
   Coefficients c{};
-  for (int i = 0; i <= order; ++i)
-    for (int j = 0; i + j <= order; ++j) c[i + j] += a[i] * b[j];
+  int degree = 0;
+};
+
+/// Product without terms of order above `order`.
+Series product(const Series& a, const Series& b, int order) {
+  Series c;
+  c.degree = std::min(a.degree + b.degree, order);
+  for (int i = 0; i <= a.degree; ++i)
+    for (int j = 0, last = std::min(b.degree, order - i); j <= last; ++j) c.c[i + j] += a.c[i] * b.c[j];
   return c;
 }
 
 /// Adds the part of f of power j in tau, a polynomial in sigma.
-void add_power(const CurvePolynomial& f, int j, int order, Coefficients& to) {
-  for (int i = 0; i <= std::min(f.degree - j, order); ++i) to[i] += f.f.c[place(i, j)];
+void add_power(const CurvePolynomial& f, int j, int order, Series& to) {
+  const int last = std::min(f.degree - j, order);
+  for (int i = 0; i <= last; ++i) to.c[i] += f.f.c[place(i, j)];
+  to.degree = std::max(to.degree, last);
 }
 
-Coefficients composed(const CurvePolynomial& f, const Coefficients& p, int order) {
-  Coefficients value{};
+Series composed(const CurvePolynomial& f, const Series& p, int order) {
+  Series value;
   add_power(f, f.degree, order, value);
   for (int j = f.degree - 1; j >= 0; --j) {
     value = product(value, p, order);
@@ -39,23 +48,22 @@ double norm(const Coefficients& c) {
 }
 
 /// Bounds |f(sigma, P(sigma))| on [-1, 1]: coefficients kept, and `rest` for those dropped.
-double residual(const CurvePolynomial& f, const Coefficients& p) {
-  const double size = norm(p);
-  Coefficients value{};
+double residual(const CurvePolynomial& f, const Series& p) {
+  const double size = norm(p.c);
+  Series value;
   double rest = 0;
   add_power(f, f.degree, n, value);
   for (int j = f.degree - 1; j >= 0; --j) {
-    double dropped = 0;
-    for (int i = 1; i <= n; ++i) {
-      double tail = 0;
-      for (int k = n - i + 1; k <= n; ++k) tail += std::abs(p[k]);
-      dropped += std::abs(value[i]) * tail;
+    double dropped = 0, tail = 0;  // tail: of p, from order n - i + 1
+    for (int i = n - p.degree + 1; i <= value.degree; ++i) {
+      tail += std::abs(p.c[n - i + 1]);
+      dropped += std::abs(value.c[i]) * tail;
     }
     rest = rest * size + dropped;
     value = product(value, p, n);
     add_power(f, j, n, value);
   }
-  return norm(value) + rest;
+  return norm(value.c) + rest;
 }
 
 bool straight(const CurvePolynomial& f) {
@@ -113,23 +121,31 @@ CurvePolynomial swapped(const CurvePolynomial& curve) {
   return other;
 }
 
-std::optional<Graph> graph_of(const CurvePolynomial& f) {
-  if (slope_bound(f, 1) == 0) return std::nullopt;
+bool may_be_graph(const CurvePolynomial& f) { return slope_bound(f, 1) != 0; }
+
+std::optional<Graph> graph_of(const CurvePolynomial& f, double enough) {
   const double start = root_in_middle(f);
   if (!std::isfinite(start)) return std::nullopt;
-  Graph graph;
-  Coefficients& p = graph.p;
-  p[0] = start;
+  Series p;
+  p.c[0] = start;
   double slope = 0, power = 1;  // df/dtau at the start
   for (int j = 1; j <= f.degree; ++j, power *= start) slope += j * f.f.c[place(0, j)] * power;
-  for (int order = 1; order <= n; ++order) {  // each step fixes one more coefficient
-    const Coefficients rest = composed(f, p, order);
-    for (int k = 0; k <= order; ++k) p[k] -= rest[k] / slope;
+  const int last = straight(f) ? 1 : n;
+  double before = HUGE_VAL;
+  for (int order = 1; order <= last; ++order) {  // each step fixes one more coefficient
+    const Series rest = composed(f, p, order);
+    p.degree = order;
+    for (int k = 0; k <= order; ++k) p.c[k] -= rest.c[k] / slope;
+    const double now = std::abs(p.c[order]);
+    if (now < enough && before * now < enough * enough && order > 1) break;
+    before = now;
   }
-  const double reach = std::max(1.0, norm(p));
+  const double reach = std::max(1.0, norm(p.c));
   const double least = slope_bound(f, reach);
   if (least == 0) return std::nullopt;
   constexpr double rounding = 1e-14;
+  Graph graph;
+  graph.p = p.c;
   graph.error = (residual(f, p) + f.error * reach + rounding * size_within(f, reach)) / std::abs(least);
   graph.rising = least > 0 ? 1 : -1;
   if (!std::isfinite(graph.error)) return std::nullopt;

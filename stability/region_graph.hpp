@@ -28,7 +28,11 @@ struct Graph {
 /// sigma and tau exchanged.
 CurvePolynomial swapped(const CurvePolynomial& curve);
 
-/// None where the curve is not shown to be a graph over all of [-1, 1].
-std::optional<Graph> graph_of(const CurvePolynomial& curve);
+/// False where graph_of would find none.
+bool may_be_graph(const CurvePolynomial& curve);
+
+/// None where the curve is not shown to be a graph over all of [-1, 1]; may_be_graph is known. Terms of the series are
+/// left out once they fall below `enough`.
+std::optional<Graph> graph_of(const CurvePolynomial& curve, double enough);
 
 }  // namespace surefoot::stability

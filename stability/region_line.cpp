@@ -51,7 +51,7 @@ class March {
     feasible_ = was_feasible;
     if ((m.value > 0) != feasible_) cross(from, begin);
     double stuck = 0;  // length of the blind step, doubled while the march does not get ahead
-    for (int steps = 0; steps < most_steps; ++steps) {
+    for (int steps = 0; steps < most_steps; ++steps, ++found_.steps) {
       const double reach = m.value > 0 ? reach_of_witness(rows_, t, m) : reach_of_multipliers(rows_, t, m);
       const double end = t + reach;
       if (!(end < to)) return;
@@ -133,6 +133,7 @@ void solve_line(const RegionMode& mode, int index, double s, double from, double
   found.at_begin = false;
   found.crossings.clear();
   found.uncertain = false;
+  found.steps = 0;
   constexpr double rounding = 1e-13;  // of coordinates: how well a place on the line is known
   const double step = std::max(line_step * (to - from), rounding * (std::abs(s) + std::abs(from) + std::abs(to)));
   std::array<double, 2> root;

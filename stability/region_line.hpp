@@ -33,6 +33,7 @@ struct LineSet {
   bool at_begin = false;            ///< feasible at the beginning
   std::vector<Crossing> crossings;  ///< ascending, alternately leaving and entering
   bool uncertain = false;
+  int steps = 0;                    ///< of the marches: a measure of the work
 };
 
 /// The mode on the line at `s`, for t in [from, to]. `index` names the mode in CurveId.

@@ -10,45 +10,69 @@
 namespace surefoot::stability {
 namespace {
 
-ModeThere known(ModeThere::Kind kind) {
+ModeThere known(ModePart::Kind kind) {
   ModeThere there;
   there.kind = kind;
   return there;
 }
 
+ModeThere with_one_sign(const SignedMode& mode, bool curves) {
+  ModeThere there;
+  const Margin margin = mode.margin_in_middle();
+  there.feasible_in_middle = margin.value > 0;
+  mode.decide(margin, curves, there.part[0], there.strip);
+  there.kind = there.part[0].kind;
+  return there;
+}
+
+/// Where D changes its sign. A covector does not notice; otherwise both signs, that of the middle first.
+ModeThere with_both_signs(const RegionModes& modes, int index, const Rectangle& rectangle, std::span<const Conic> edges,
+                          const Conic& d, bool curves) {
+  ModeThere there;
+  there.denominator = true;
+  const int middle = d.c[0] > 0 ? 0 : 1;
+  for (const int k : {middle, 1 - middle}) {
+    const SignedMode part(modes.modes()[index], rectangle, k == 0 ? 1 : -1, edges, &d);
+    const Margin margin = part.margin_in_middle();
+    if (k == middle) {
+      there.feasible_in_middle = margin.value > 0;
+      if (!there.feasible_in_middle && excluded_by_covector(modes, index, rectangle)) return known(ModePart::nowhere);
+    }
+    part.decide(margin, curves, there.part[k], there.strip);
+    if (there.part[k].kind == ModePart::unknown) return there;
+  }
+  there.summarise();
+  return there;
+}
+
 }  // namespace
 
-ModeThere mode_there(const RegionModes& modes, int index, const Rectangle& rectangle, std::span<const Conic> edges) {
+void ModeThere::summarise() {
+  kind = part[0].kind;
+  if (!denominator) return;
+  if (kind == ModePart::unknown || part[1].kind == ModePart::unknown)
+    kind = ModePart::unknown;
+  else if (kind != part[1].kind)
+    kind = ModePart::by_curves;
+}
+
+ModeThere mode_there(const RegionModes& modes, int index, const Rectangle& rectangle, std::span<const Conic> edges,
+                     bool curves) {
   const RegionMode& mode = modes.modes()[index];
-  if (mode.impossible) return known(ModeThere::nowhere);
+  if (mode.impossible) return known(ModePart::nowhere);
   ModeThere there;
-  if (!mode.has_denominator) {
-    there = SignedMode(mode, rectangle, 1, edges, nullptr).decide();
+  const Conic d = mode.has_denominator ? local(mode.denominator, rectangle) : Conic{{1, 0, 0, 0, 0, 0}};
+  const double error = mode.has_denominator ? local_error(mode.denominator, rectangle) : 0;
+  if (lower(d) > error || upper(d) < -error) {
+    there = with_one_sign(SignedMode(mode, rectangle, d.c[0] > 0 ? 1 : -1, edges, nullptr), curves);
+    if (there.kind == ModePart::unknown && mode.has_denominator && !there.feasible_in_middle &&
+        excluded_by_covector(modes, index, rectangle))
+      return known(ModePart::nowhere);
   } else {
-    const Conic d = local(mode.denominator, rectangle);
-    const double error = local_error(mode.denominator, rectangle);
-    if (lower(d) > error || upper(d) < -error) {
-      there = SignedMode(mode, rectangle, d.c[0] > 0 ? 1 : -1, edges, nullptr).decide();
-    } else {
-      const ModeThere plus = SignedMode(mode, rectangle, 1, edges, &d).decide(),
-                      minus = SignedMode(mode, rectangle, -1, edges, &d).decide();
-      there.feasible_in_middle = (d.c[0] > 0 ? plus : minus).feasible_in_middle;
-      const bool decided = (plus.kind == ModeThere::nowhere || plus.kind == ModeThere::everywhere) &&
-                           (minus.kind == ModeThere::nowhere || minus.kind == ModeThere::everywhere);
-      there.strip = plus.strip + minus.strip;
-      if (decided) {
-        there.kind = plus.kind;
-      }
-      if (decided && plus.kind != minus.kind) {
-        there.kind = ModeThere::beyond_curve;
-        there.curve = {CurveId::denominator, -1, -1, -1, -1, 0};
-        there.sign = plus.kind == ModeThere::everywhere ? 1 : -1;
-      }
-    }
-    if (there.kind == ModeThere::unknown && !there.feasible_in_middle && excluded_by_covector(modes, index, rectangle))
-      return known(ModeThere::nowhere);
+    there = with_both_signs(modes, index, rectangle, edges, d, curves);
   }
-  there.curve.mode = static_cast<signed char>(index);
+  for (ModePart& part : there.part)
+    for (int k = 0; k < part.count; ++k) part.condition[k].curve.mode = static_cast<signed char>(index);
   return there;
 }
 

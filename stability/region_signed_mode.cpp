@@ -8,7 +8,14 @@ namespace surefoot::stability {
 SignedMode::SignedMode(const RegionMode& mode, const Rectangle& rectangle, double sign, std::span<const Conic> edges,
            const Conic* denominator)
     : edges_(edges), count_(mode.count), sign_(sign) {
-  if (denominator != nullptr) denominator_ = *denominator * sign;
+  if (denominator != nullptr) {
+    denominator_ = *denominator * sign;
+    const double d = denominator_->c[0], ds = denominator_->c[1], dt = denominator_->c[2];
+    const double slope = ds * ds + dt * dt, steepest = std::max(std::abs(ds), std::abs(dt));
+    // Along the gradient D vanishes after -d / slope and the rectangle ends after 1 / steepest; half-way between them.
+    const double along = d < 0 && slope > 0 ? std::min(0.5 * (1 / steepest - d / slope), 1 / steepest) : 0;
+    sigma_ = along * ds, tau_ = along * dt;
+  }
   for (int k = 0; k < count_; ++k) {
     const Form<Poly2>& f = mode.row[k].form;
     LocalRow& row = row_[k];
@@ -17,22 +24,24 @@ SignedMode::SignedMode(const RegionMode& mode, const Rectangle& rectangle, doubl
   }
 }
 
-ModeThere SignedMode::decide() const {
-  const Margin m = margin_at(0, 0);
-  ModeThere there;
-  there.feasible_in_middle = m.value > 0;
-  if (m.count == 0 || (m.value > 0 && witnessed(m.u, m.w, there.strip))) {
-    there.kind = ModeThere::everywhere;
-    return there;
+void SignedMode::decide(const Margin& m, bool curves, ModePart& part, double& strip) const {
+  const bool feasible = m.value > 0;
+  double own = 0;
+  if (m.count == 0 || (feasible && witnessed(m.u, m.w, own)))
+    part.kind = ModePart::everywhere;
+  else if (!feasible && (excluded(m, {}, own) || excluded_by_basis(m.basis)))
+    part.kind = ModePart::nowhere;
+  else if (const Box box = feasible ? Box{} : remaining_box(); box.empty || (!feasible && excluded(m, box, own)))
+    part.kind = ModePart::nowhere;
+  if (part.kind == ModePart::unknown && curves && !(denominator_ && beside_denominator(part))) {
+    const Margin near = margin_on_curve(m);
+    own = 0;
+    if (!feasible && !(near.value > 0) && !(near.basis == m.basis) && excluded(near, {}, own))
+      part.kind = ModePart::nowhere;
+    else
+      by_curves(near.basis, part);
   }
-  if (m.value <= 0 && (excluded(m, there.strip) || excluded_by_basis(m.basis))) {
-    there.kind = ModeThere::nowhere;
-    return there;
-  }
-  if (denominator_ && beside_denominator(there)) return there;
-  const Margin at_curve = margin_on_curve(m);
-  if (!single_curve(at_curve.basis, there)) there.kind = ModeThere::unknown;
-  return there;
+  if (part.kind == ModePart::nowhere || part.kind == ModePart::everywhere) strip += own;
 }
 
 Margin SignedMode::margin_at(double sigma, double tau) const {
@@ -41,10 +50,27 @@ Margin SignedMode::margin_at(double sigma, double tau) const {
   return margin(g.data(), count_);
 }
 
+namespace {
+
+/// z such that f + z e has the least slope in the middle.
+double balance(const Conic& f, const Conic& e) {
+  return -(f.c[1] * e.c[1] + f.c[2] * e.c[2]) / (e.c[1] * e.c[1] + e.c[2] * e.c[2]);
+}
+
+}  // namespace
+
+bool SignedMode::positive(const Conic& f, double error) const {
+  if (lower(f) > error) return true;
+  if (!denominator_) return false;
+  constexpr double rounding = 1e-14;  // of D and of the sum
+  const double z = -balance(f, *denominator_);
+  return z > 0 && lower(f - *denominator_ * z) > error + rounding * z * magnitude(*denominator_);
+}
+
 bool SignedMode::negative(const Conic& f, double error, double& strip) const {
-  if (upper(f) < -error) return true;
+  if (positive(f * -1, error)) return true;
   for (const Conic& e : edges_) {
-    const double slope = e.c[1] * e.c[1] + e.c[2] * e.c[2], z = -(f.c[1] * e.c[1] + f.c[2] * e.c[2]) / slope;
+    const double z = balance(f, e);
     if (!(z > 0) || !(upper(f + e * z) <= error)) continue;
     const double part = error / (z * std::max(std::abs(e.c[1]), std::abs(e.c[2])));
     if (!(part < widest_strip)) continue;
@@ -60,7 +86,27 @@ bool SignedMode::witnessed(double u, double w, double& strip) const {
   return true;
 }
 
-bool SignedMode::excluded(const Margin& m, double& strip) const {
+SignedMode::Box SignedMode::remaining_box() const {
+  Box box;
+  constexpr double room = 1e-12;  // for rounding, of numbers of size 1
+  for (int k = 0; k < count_; ++k) {
+    const LocalRow& row = row_[k];
+    const auto cut = [&](const Conic& slot, const Conic& a, const Conic& b, std::array<double, 2>& range) {
+      const double least = lower(slot), greatest = upper(slot), top = std::max(upper(a), upper(b)) + row.error;
+      const double weakest = top > 0 ? std::min(std::abs(least), std::abs(greatest)) : std::max(std::abs(least), std::abs(greatest));
+      const double end = -top / weakest;  // of what is excluded, in the sense in which the row grows
+      if ((least > 0 || greatest < 0) && end > 1 + room) box.empty = true;
+      if (top < 0 && top + std::max(std::abs(least), std::abs(greatest)) < 0) box.empty = true;
+      if (least > 0) range[0] = std::clamp(end - room, range[0], range[1]);
+      if (greatest < 0) range[1] = std::clamp(room - end, range[0], range[1]);
+    };
+    cut(row.form.u, at_wrench(row, 0, -1), at_wrench(row, 0, 1), box.u);
+    cut(row.form.w, at_wrench(row, -1, 0), at_wrench(row, 1, 0), box.w);
+  }
+  return box;
+}
+
+bool SignedMode::excluded(const Margin& m, const Box& box, double& strip) const {
   LocalRow sum;
   const signed char basis[3] = {m.basis.a, m.basis.b, m.basis.c};
   for (int k = 0; k < m.count; ++k) {
@@ -68,14 +114,14 @@ bool SignedMode::excluded(const Margin& m, double& strip) const {
     sum.form = {sum.form.u + row.form.u * m.y[k], sum.form.one + row.form.one * m.y[k], sum.form.w + row.form.w * m.y[k]};
     sum.error += row.error * m.y[k];
   }
-  for (const double u : {-1.0, 1.0})
-    for (const double w : {-1.0, 1.0})
+  for (const double u : box.u)
+    for (const double w : box.w)
       if (!negative(at_wrench(sum, u, w), sum.error, strip)) return false;
   return true;
 }
 
 Margin SignedMode::margin_on_curve(Margin m) const {
-  double sigma = 0, tau = 0;
+  double sigma = sigma_, tau = tau_;
   constexpr int attempts = 2;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (m.basis.kind == CurveId::denominator || m.basis.kind == CurveId::edge) break;
@@ -99,15 +145,6 @@ Poly2 SignedMode::jet(const CurveId& id, double sigma, double tau) const {
     };
     return Form<Poly2>{poly(row_[k].form.u), poly(row_[k].form.one), poly(row_[k].form.w)};
   });
-}
-
-bool SignedMode::single_curve(const CurveId& id, ModeThere& there) const {
-  switch (id.kind) {
-    case CurveId::corner: return on_side(id.place & 1 ? 1 : 0, there) || on_side(id.place & 2 ? 3 : 2, there);
-    case CurveId::side: return on_side(id.place, there);
-    case CurveId::inside: return within(id, there);
-    default: return false;
-  }
 }
 
 bool SignedMode::excluded_by_basis(const CurveId& id) const {
@@ -140,7 +177,7 @@ bool SignedMode::excluded_inside(const CurveId& id) const {
   return upper(sum * sign) < -2 * error;
 }
 
-bool SignedMode::within(const CurveId& id, ModeThere& there) const {
+bool SignedMode::within(const CurveId& id, ModePart& part) const {
   const int at[3] = {id.a, id.b, id.c};
   std::array<Bivariate<4>, 3> y;
   const double sign = multipliers(at, y);
@@ -148,9 +185,8 @@ bool SignedMode::within(const CurveId& id, ModeThere& there) const {
   bool free = false;
   for (int k = 0; k < 3 && !free; ++k) free = vertex_free_of_others(at, k, y[k], sign);
   if (!free) return false;
-  there.kind = ModeThere::beyond_curve;
-  there.curve = id;
-  there.sign = static_cast<signed char>(sign * sign_);
+  part.kind = ModePart::by_curves, part.count = 1;
+  part.condition[0] = {id, static_cast<signed char>(sign * sign_)};
   return true;
 }
 

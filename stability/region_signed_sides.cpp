@@ -28,50 +28,121 @@ std::optional<SignedMode::SidePair> SignedMode::side_pair(const CurveId& id) con
   return pair;
 }
 
-bool SignedMode::on_side(int side, ModeThere& there) const {
-  SideConditions conditions(*this, side);
-  if (!conditions.collect()) return false;
-  there.kind = ModeThere::everywhere;
-  if (!conditions.open) return true;
-  there.kind = ModeThere::beyond_curve;
-  there.curve = *conditions.open;
-  there.sign = conditions.sign;
-  return fails_everywhere(*conditions.open);
+bool SignedMode::by_curves(const CurveId& id, ModePart& part) const {
+  if (id.kind == CurveId::inside) return within(id, part);
+  if (id.kind != CurveId::corner && id.kind != CurveId::side) return false;
+  const int first = id.kind == CurveId::side ? id.place : id.place & 1 ? 1 : 0;
+  std::optional<SideConditions> one, other;
+  if (by_side(first, one, part)) return true;
+  int second = id.place & 2 ? 3 : 2;
+  if (id.kind == CurveId::side) {
+    const int corner = one ? one->corner_in_doubt() : -1;
+    if (corner < 0) return false;
+    second = first >= 2 ? corner & 1 : corner & 2 ? 3 : 2;
+  }
+  return by_side(second, other, part) || (one && other && by_two_sides(*one, *other, part));
 }
 
-bool SignedMode::fails_everywhere(const CurveId& id) const {
+int SignedMode::SideConditions::corner_in_doubt() const {
+  int corner = -1;
+  for (const Open& condition : listed()) {
+    if (condition.necessary) continue;
+    if (condition.curve.kind != CurveId::corner || (corner >= 0 && condition.curve.place != corner)) return -1;
+    corner = condition.curve.place;
+  }
+  return corner;
+}
+
+bool SignedMode::by_side(int side, std::optional<SideConditions>& conditions, ModePart& part) const {
+  conditions.emplace(*this, side);
+  if (!conditions->collect()) {
+    conditions.reset();
+    return false;
+  }
+  ModePart found;
+  std::optional<Box> box;
+  for (int k = 0; k < conditions->opens; ++k) {
+    SideConditions::Open& open = conditions->open[k];
+    open.necessary = necessary(open.curve, {});
+    if (!open.necessary && !box) box = remaining_box();
+    open.necessary |= box && necessary(open.curve, *box);
+    if (open.necessary) found.condition[found.count++] = open;
+  }
+  if (found.count < conditions->opens) return false;
+  found.kind = found.count == 0 ? ModePart::everywhere : ModePart::by_curves;
+  part = found;
+  return true;
+}
+
+bool SignedMode::by_two_sides(const SideConditions& one, const SideConditions& other, ModePart& part) const {
+  if (one.corner_in_doubt() < 0 || one.corner_in_doubt() != other.corner_in_doubt()) return false;
+  const auto has_pair = [](const SideConditions& side, int i, int j) {
+    const auto listed = side.listed();
+    return std::any_of(listed.begin(), listed.end(), [&](const SideConditions::Open& open) {
+      return open.necessary && open.curve.kind == CurveId::side && open.curve.a == std::min(i, j) &&
+             open.curve.b == std::max(i, j);
+    });
+  };
+  for (const SideConditions::Open& f : one.listed())
+    for (const SideConditions::Open& g : other.listed()) {
+      if (f.necessary || g.necessary) continue;
+      const int i = f.curve.a, j = g.curve.a;
+      if (i == j || (!has_pair(one, i, j) && !has_pair(other, i, j))) return false;
+    }
+  ModePart found;
+  found.kind = ModePart::by_curves;
+  for (const SideConditions* side : {&one, &other})
+    for (const SideConditions::Open& open : side->listed()) {
+      if (!open.necessary) continue;
+      if (found.count == found.condition.size()) return false;
+      found.condition[found.count++] = open;
+    }
+  if (found.count == 0) return false;
+  part = found;
+  return true;
+}
+
+bool SignedMode::necessary(const CurveId& id, const Box& box) const {
   if (id.kind == CurveId::corner) {
     const LocalRow& row = row_[id.a];
-    return lower(row.form.u * (id.place & 1 ? 1 : -1)) >= -row.error && lower(row.form.w * (id.place & 2 ? 1 : -1)) >= -row.error;
+    const Conic here = at_wrench(row, id.place & 1 ? 1 : -1, id.place & 2 ? 1 : -1);
+    for (const double u : box.u)
+      for (const double w : box.w) {
+        const Conic there = at_wrench(row, u, w);
+        if (!(lower(here - there) >= -row.error) && !positive(there * -1, row.error)) return false;
+      }
+    return true;
   }
   const std::optional<SidePair> pair = side_pair(id);
-  return pair && lower(pair->sum - pair->opposite) >= -product_error(pair->up, pair->down);
+  if (!pair) return false;
+  const double error = product_error(pair->up, pair->down);
+  return lower(pair->sum - pair->opposite) >= -error || upper(pair->opposite) < -error;
 }
 
-bool SignedMode::beside_denominator(ModeThere& there) const {
+bool SignedMode::beside_denominator(ModePart& part) const {
   CurveId tried;
-  for (const double sigma : {-1.0, 0.0, 1.0})
-    for (const double tau : {-1.0, 0.0, 1.0}) {
-      if (!(value_at(*denominator_, sigma, tau) > 0)) continue;
-      const CurveId id = margin_at(sigma, tau).basis;
-      if (id.kind != CurveId::side || id == tried) continue;
-      tried = id;
-      if (beside_denominator(id, there)) return true;
-    }
+  constexpr double place[5][2] = {{0, 0}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
+  for (const auto& [sigma, tau] : place) {
+    if (!(value_at(*denominator_, sigma, tau) > 0)) continue;
+    const CurveId id = margin_at(sigma, tau).basis;
+    if (id.kind != CurveId::side || id == tried) continue;
+    tried = id;
+    if (beside_denominator(id, part)) return true;
+  }
   return false;
 }
 
-bool SignedMode::beside_denominator(const CurveId& id, ModeThere& there) const {
+bool SignedMode::beside_denominator(const CurveId& id, ModePart& part) const {
   const std::optional<SidePair> pair = side_pair(id);
   if (!pair) return false;
   const double error = product_error(pair->up, pair->down);
   if (positive(pair->sum * -1, error) && positive(pair->opposite * -1, error)) {
-    there.kind = ModeThere::nowhere;
+    part.kind = ModePart::nowhere;
     return true;
   }
   SideConditions conditions(*this, id.place);
-  if (!conditions.collect() || conditions.open) return false;
-  there.kind = ModeThere::everywhere;
+  if (!conditions.collect() || conditions.opens > 0) return false;
+  part.kind = ModePart::everywhere;
   return true;
 }
 
@@ -103,11 +174,16 @@ bool SignedMode::SideConditions::collect() {
   for (int k = 0; k < mode.count_; ++k) {
     row[k] = mode.on_side(k, side);
     const double error = mode.row_[k].error;
-    const bool low_holds = lower(row[k].e - row[k].g) > error, high_holds = lower(row[k].e + row[k].g) > error;
+    const bool low_holds = mode.positive(row[k].e - row[k].g, error), high_holds = mode.positive(row[k].e + row[k].g, error);
     if (low_holds && high_holds) continue;
-    if (lower(row[k].g) >= -error && (high_holds || leave_open(corner(k, true), of_rows)))
+    if (!low_holds && !high_holds && magnitude(row[k].g) <= error) {  // the same on all of the side
+      if (!leave_open(corner(k, true), of_rows)) return false;
+      continue;
+    }
+    // A row that holds at an end holds on all of the side where its slope has the other sign.
+    if (high_holds || (!low_holds && lower(row[k].g) >= -error && leave_open(corner(k, true), of_rows)))
       rising[risings++] = k;
-    else if (upper(row[k].g) <= error && (low_holds || leave_open(corner(k, false), of_rows)))
+    else if (low_holds || (upper(row[k].g) <= error && leave_open(corner(k, false), of_rows)))
       falling[fallings++] = k;
     else
       return false;

@@ -145,11 +145,14 @@ std::vector<Vector2d> Sweep::sample(const Slab& slab, std::size_t curve, double 
     Vector2d at;
   };
   std::vector<double> t;
+  constexpr double most_effort = 250;
   const auto point = [&](double u) {
     const double s = slab.a + (slab.b - slab.a) * share(u);
     if (curve_points(slab, s, u, t)) return Point{u, {s, t[curve]}};
-    SweepLine line = solve(s);
-    if (line.at.size() == slab.curves.size()) return Point{u, {s, line.at[curve - 1].t}};
+    if (effort() < effort_of_run_ + most_effort) {
+      const SweepLine line = solve(s);
+      if (line.at.size() == slab.curves.size()) return Point{u, {s, line.at[curve - 1].t}};
+    }
     const double guess = (1 - u) * (1 - 2 * u) * slab.at_a[curve] + 4 * u * (1 - u) * slab.at_m[curve] +
                          u * (2 * u - 1) * slab.at_b[curve];
     return Point{u, {s, guess}};

@@ -20,6 +20,7 @@ Subdivision::Subdivision(const RegionModes& modes, const std::vector<Vector2d>& 
 }
 
 void Subdivision::run(double error, int most) {
+  asked_ = error;
   Node whole;
   const std::size_t edges = modes_.edges().size();
   whole.edges = edges >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << edges) - 1;
@@ -32,7 +33,7 @@ void Subdivision::run(double error, int most) {
     const Node parent = std::move(nodes_[index]);
     nodes_[index].error = -1;  // gone
     error_ -= parent.error;
-    Rectangle one = parent.leaf.box, two = one;
+    Rectangle one = parent.box, two = one;
     if (one.b - one.a > one.hi - one.lo)
       one.b = two.a = one.s();
     else
@@ -40,46 +41,55 @@ void Subdivision::run(double error, int most) {
     add(one, parent);
     add(two, parent);
   }
-  error_ = strips_;
-  for (Node& node : nodes_) {
-    if (node.error < 0) continue;
-    error_ += node.error;
-    if (node.decided)
-      leaves_.push_back(std::move(node.leaf));
-    else
-      open_area_ += node.error;
-  }
+  error_ = robust_error_ = strips_;
+  for (Node& node : nodes_)
+    if (node.error >= 0) finish(node);
+}
+
+void Subdivision::finish(Node& node) {
+  error_ += node.error;
+  robust_ += node.areas.robust + 0.5 * node.areas.open;
+  robust_error_ += node.areas.loose + 0.5 * node.areas.open;
+  pieces_.insert(pieces_.end(), node.pieces.begin(), node.pieces.end());
 }
 
 void Subdivision::add(const Rectangle& box, const Node& parent) {
   ++rectangles_;
   Node node;
-  node.leaf.box = box;
-  node.leaf.everywhere = parent.leaf.everywhere;
+  node.box = box;
+  node.everywhere = parent.everywhere;
   if (!keep_edges(node, parent)) return;
   decide_modes(node, parent);
-  if (robust_only_ && node.leaf.everywhere != 0) return;
-  if (node.unknown == 0 && node.leaf.curves.empty() && node.edges == 0) {
-    leaves_.push_back(std::move(node.leaf));
+  if (robust_only_ && node.everywhere != 0) return;
+  measure(node);
+  if (node.error == 0) {
+    finish(node);
     return;
-  }
-  node.decided = node.unknown == 0 && find_graphs(node);
-  node.error = area_inside(node);
-  if (node.decided) {
-    double distance = 0;
-    for (const LocalCurve& curve : node.leaf.curves) distance += 2 * curve.graph.error * box.ds() * box.dt();
-    node.error = std::min(node.error, distance);
-  } else if (robust_only_) {
-    node.error *= 0.5;
   }
   error_ += node.error;
   open_.push({node.error, static_cast<int>(nodes_.size())});
   nodes_.push_back(std::move(node));
 }
 
+/// Areas by pieces, or all open where that says no more.
+void Subdivision::measure(Node& node) {
+  const double area = area_inside(node);
+  node.areas = {0, area, area, 0};
+  const auto error_of = [this](const Areas& areas) { return areas.loose + (robust_only_ ? 0.5 * areas.open : areas.unsure); };
+  if (find_graphs(node)) {
+    const Areas areas = cut(leaf_, node.pieces);
+    if (error_of(areas) <= error_of(node.areas))
+      node.areas = areas;
+    else
+      node.pieces.clear();
+  }
+  node.error = error_of(node.areas);
+  if (robust_only_) node.pieces.clear();
+}
+
 /// The edges that cross the rectangle; false where it lies outside of the polygon.
 bool Subdivision::keep_edges(Node& node, const Node& parent) const {
-  const Rectangle& box = node.leaf.box;
+  const Rectangle& box = node.box;
   for (std::uint64_t left = parent.edges; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     const Poly2& edge = modes_.edges()[k];
@@ -91,59 +101,51 @@ bool Subdivision::keep_edges(Node& node, const Node& parent) const {
 }
 
 void Subdivision::decide_modes(Node& node, const Node& parent) {
-  Leaf& leaf = node.leaf;
-  std::vector<Bivariate<2>> edges;
+  local_edges_.clear();
   for (std::uint64_t left = node.edges; left != 0; left &= left - 1)
-    edges.push_back(local(modes_.edges()[std::countr_zero(left)], leaf.box));
-  const auto beyond = [&](const CurveId& curve, int sign) {
-    const int there = sign * sign_there(curve_there(modes_, curve, leaf.box));
-    if (there > 0) leaf.everywhere |= 1u << curve.mode;
-    if (there == 0) leaf.curves.push_back({curve, sign, {}});
+    local_edges_.push_back(local(modes_.edges()[std::countr_zero(left)], node.box));
+  const auto keep = [&](int mode, const ModeThere& there) {
+    if (there.kind == ModePart::nowhere) return;
+    if (there.kind == ModePart::everywhere) {
+      node.everywhere |= 1u << mode;
+      return;
+    }
+    if (there.kind == ModePart::unknown) node.unknown |= 1u << mode;
+    node.modes.push_back({mode, there});
   };
-  for (const LocalCurve& known : parent.leaf.curves)
-    if (known.curve.kind != CurveId::edge) beyond(known.curve, known.sign);
+  for (const LeafMode& known : parent.modes)
+    if (!(parent.unknown >> known.mode & 1)) keep(known.mode, narrowed(modes_, known.mode, known.there, node.box));
   for (std::uint32_t left = parent.unknown; left != 0; left &= left - 1) {
-    if (robust_only_ && leaf.everywhere != 0) return;
+    if (robust_only_ && node.everywhere != 0) return;
     const int k = std::countr_zero(left);
-    const ModeThere there = mode_there(modes_, k, leaf.box, edges);
-    if (there.kind != ModeThere::unknown) strips_ += std::min(there.strip, 1.0) * leaf.box.area();
-    if (there.kind == ModeThere::everywhere) leaf.everywhere |= 1u << k;
-    if (there.kind == ModeThere::unknown) node.unknown |= 1u << k;
-    if (there.kind == ModeThere::beyond_curve) beyond(there.curve, there.sign);
+    const bool curves = node.unknown == 0 ? !very_large(node) : !large(node);
+    const ModeThere there = mode_there(modes_, k, node.box, local_edges_, curves);
+    if (there.kind != ModePart::unknown) strips_ += std::min(there.strip, 1.0) * node.box.area();
+    keep(k, there);
   }
 }
 
-/// All curves as graphs over s, or all over t.
-bool Subdivision::find_graphs(Node& node) const {
-  Leaf& leaf = node.leaf;
-  std::vector<CurvePolynomial> curves;
-  double level = 0, upright = 0;
-  const auto list = [&](const CurveId& id) {
-    curves.push_back(curve_there(modes_, id, leaf.box));
-    level += std::abs(curves.back().f.c[place(0, 1)]) > std::abs(curves.back().f.c[place(1, 0)]);
-    upright += std::abs(curves.back().f.c[place(0, 1)]) < std::abs(curves.back().f.c[place(1, 0)]);
-  };
-  for (const LocalCurve& curve : leaf.curves) list(curve.curve);
+/// Puts the rectangle into leaf_. False where its curves are no graphs, or tell nothing.
+bool Subdivision::find_graphs(const Node& node) {
+  if (node.unknown != 0 && large(node)) return false;
+  leaf_.box = node.box, leaf_.everywhere = node.everywhere, leaf_.modes = node.modes;
+  leaf_.curves.clear(), leaf_.conditions.clear(), leaf_.graphs.clear();
+  for (const LeafMode& mode : node.modes)
+    mode.list([&](const CurveCondition& c) { leaf_.add(curve_there(modes_, c.curve, node.box), c.sign); });
+  leaf_.of_modes = leaf_.conditions.size();
+  if (leaf_.of_modes == 0 && node.unknown != 0) return false;
   for (std::uint64_t left = node.edges; left != 0; left &= left - 1) {
     const CurveId id{CurveId::edge, -1, static_cast<signed char>(std::countr_zero(left)), -1, -1, 0};
-    leaf.curves.push_back({id, 1, {}});
-    list(id);
+    leaf_.add(curve_there(modes_, id, node.box), 1);
   }
-  const auto attempt = [&](bool exchanged) {
-    leaf.swapped = exchanged;
-    for (std::size_t k = 0; k < curves.size(); ++k) {
-      const std::optional<Graph> graph = graph_of(exchanged ? swapped(curves[k]) : curves[k]);
-      if (!graph) return false;
-      leaf.curves[k].graph = *graph;
-    }
-    return true;
-  };
-  return attempt(upright > level) || attempt(upright <= level);
+  constexpr double share = 1e-4, least = 1e-15;  // of the error asked for, for one curve; rounding
+  return leaf_.find_graphs(std::max(share * asked_ / node.box.area(), least));
 }
 
 /// Of the part of the rectangle on the inner side of the edges that cross it.
-double Subdivision::area_inside(const Node& node) const {
-  const Rectangle& box = node.leaf.box;
+double Subdivision::area_inside(const Node& node) {
+  const Rectangle& box = node.box;
+  if (node.edges == 0) return box.area();
   std::vector<Vector2d> part{{box.a, box.lo}, {box.b, box.lo}, {box.b, box.hi}, {box.a, box.hi}}, kept;
   for (std::uint64_t left = node.edges; left != 0; left &= left - 1) {
     const Poly2& edge = modes_.edges()[std::countr_zero(left)];

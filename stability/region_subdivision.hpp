@@ -8,67 +8,58 @@
 #include <queue>
 #include <vector>
 
-#include "stability/region_graph.hpp"
-#include "stability/region_rectangle.hpp"
+#include "stability/region_pieces.hpp"
 
 namespace surefoot::stability {
 
-/// A curve in a rectangle: its mode is feasible, or the polygon lies, where sign * curve > 0.
-struct LocalCurve {
-  CurveId curve;
-  int sign = 1;
-  Graph graph;
-  bool holds(double sigma, double tau) const { return sign * graph.rising * (tau - graph.at(sigma)) > 0; }
-};
-
-/// A decided rectangle. In local coordinates, exchanged where `swapped`: sigma along t and tau along s.
-struct Leaf {
-  Rectangle box;
-  bool swapped = false;
-  std::uint32_t everywhere = 0;  ///< modes feasible in all of it: bit k for modes()[k]
-  std::vector<LocalCurve> curves;
-  Eigen::Vector2d point(double sigma, double tau) const {
-    const double s = swapped ? tau : sigma, t = swapped ? sigma : tau;
-    return {box.s() + s * box.ds(), box.t() + t * box.dt()};
-  }
-};
-
 class Subdivision {
  public:
-  /// `polygon` counter-clockwise in (s, t); its edges are those set in `modes`. `robust_only`: rectangles in which some
-  /// mode is feasible everywhere are not looked into further.
+  /// `polygon` counter-clockwise in (s, t); its edges are those set in `modes`. `robust_only`: which modes are feasible
+  /// does not matter, only whether any is.
   Subdivision(const RegionModes& modes, const std::vector<Eigen::Vector2d>& polygon, bool robust_only);
   /// Until error() <= error, or `most` rectangles have been looked at.
   void run(double error, int most);
 
-  const std::vector<Leaf>& leaves() const { return leaves_; }
-  double error() const { return error_; }
+  double error() const { return error_; }  ///< [m^2] of any sum of the pieces' areas; robust_only: of robust()
   int rectangles() const { return rectangles_; }
-  /// [m^2] of the rectangles left undecided, part of error(); with `robust_only` half of it, for an area given in the
-  /// middle.
-  double open_area() const { return open_area_; }
+  /// [m^2] without modes, in the middle of what is proved, and its error.
+  double robust() const { return robust_; }
+  double robust_error() const { return robust_error_; }
+  /// What rectangles were cut into, but for those left undecided; not with robust_only.
+  const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:
   struct Node {
-    Leaf leaf;
-    std::uint32_t unknown = 0;
-    std::uint64_t edges = 0;  // of the polygon, that cross the rectangle
-    bool decided = false;
+    Rectangle box;
+    std::uint32_t everywhere = 0;
+    std::vector<LeafMode> modes;  // neither everywhere nor nowhere
+    std::uint32_t unknown = 0;  // modes to look at again in parts of it
+    std::uint64_t edges = 0;    // of the polygon, that cross the rectangle
+    std::vector<Piece> pieces;
+    Areas areas;
     double error = 0;  // negative: halved
   };
   void add(const Rectangle& box, const Node& parent);
   bool keep_edges(Node& node, const Node& parent) const;
   void decide_modes(Node& node, const Node& parent);
-  bool find_graphs(Node& node) const;
-  double area_inside(const Node& node) const;
+  /// If a mode is unknown, it will be halved anyway: other modes are not looked at closely, nor is it cut.
+  bool large(const Node& node) const { return node.box.area() > root_.area() / 65536; }
+  /// Modes are hardly ever decided by curves. Both bounds are where most of bench_region --stances takes least time.
+  bool very_large(const Node& node) const { return node.box.area() > root_.area() / 256; }
+  void measure(Node& node);
+  bool find_graphs(const Node& node);
+  double area_inside(const Node& node);
+  void finish(Node& node);
 
   const RegionModes& modes_;
   bool robust_only_;
   Rectangle root_;
   std::vector<Node> nodes_;
-  std::vector<Leaf> leaves_;
+  std::vector<Piece> pieces_;
   std::priority_queue<std::pair<double, int>> open_;
-  double error_ = 0, strips_ = 0, open_area_ = 0;
+  std::vector<Bivariate<2>> local_edges_;
+  Leaf leaf_;  // of the rectangle that is measured
+  double asked_ = 0, error_ = 0, strips_ = 0, robust_ = 0, robust_error_ = 0;
   int rectangles_ = 0;
 };
 

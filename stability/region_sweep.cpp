@@ -64,8 +64,8 @@ void Sweep::classify(int mode, int first, int last, double lo, double hi, int t_
   if (settled || !(lo <= hi)) return;
   const double a = strips_[first].a, b = strips_[last - 1].b;
   const ModeThere there = mode_there(modes_, mode, {a, b, lo, hi});
-  if (there.kind == ModeThere::nowhere) return;
-  const bool feasible = there.kind != ModeThere::unknown || there.feasible_in_middle;
+  if (there.kind == ModePart::nowhere) return;
+  const bool feasible = there.kind != ModePart::unknown || there.feasible_in_middle;
   const bool one_strip = last - first == 1;
   if (one_strip && (feasible || t_depth == deepest_rectangle)) {
     strips_[first].active |= 1u << mode;
@@ -124,6 +124,7 @@ SweepLine Sweep::solve(double s) {
     solve_line(modes_.modes()[k], k, s, line.lo, line.hi, set);
     if (set.at_begin) line.begin_modes |= 1u << k;
     line.uncertain |= set.uncertain;
+    steps_ += set.steps;
     line.at.insert(line.at.end(), set.crossings.begin(), set.crossings.end());
   }
   const double reach = 1e-6 * (line.hi - line.lo), close = closeness(line);
@@ -176,6 +177,7 @@ void Sweep::run() {
     }
     refine(from, at_from, b, solve(b - inset_), 0);
   }
+  effort_of_run_ = effort();
 }
 
 }  // namespace surefoot::stability

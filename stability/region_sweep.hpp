@@ -53,7 +53,8 @@ class Sweep {
   int lines() const { return lines_; }
   bool uncertain() const { return uncertain_; }
 
-  /// Points (s, t) of a curve of a slab from a to b, ends included, within `tolerance` of the curve.
+  /// Points (s, t) of a curve of a slab from a to b, ends included, within `tolerance` of the curve. Where the curve
+  /// cannot be followed, by lines of their own as long as these are few.
   std::vector<Eigen::Vector2d> sample(const Slab& slab, std::size_t curve, double tolerance);
   /// Relative to the length of a line: crossings as close as this are taken for one point.
   static constexpr double tie = 1e-9;
@@ -74,6 +75,9 @@ class Sweep {
   SweepLine solve(double s);
   void refine(double a, const SweepLine& at_a, double b, const SweepLine& at_b, int depth);
   void reconcile(const SweepLine& first, SweepLine& second) const;
+  /// In lines of usual cost.
+  double effort() const { return lines_ + static_cast<double>(steps_) / steps_of_line; }
+  static constexpr double steps_of_line = 180;
   double thinnest() const;
   bool step_over(double a, const SweepLine& at_a, double b, const SweepLine& at_b, double guess, int depth);
   struct Difference;
@@ -93,6 +97,8 @@ class Sweep {
   std::vector<Slab> slabs_;
   double error_ = 0;
   int lines_ = 0;
+  long steps_ = 0;
+  double effort_of_run_ = 0;
   bool uncertain_ = false;
 };
 

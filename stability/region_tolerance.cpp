@@ -32,8 +32,8 @@ double distance_to(const RegionModes& modes, int mode, double limit) {
     open.pop();
     const ModeThere there = mode_there(modes, mode, {square.s - square.half, square.s + square.half,
                                                      square.t - square.half, square.t + square.half});
-    if (there.kind == ModeThere::nowhere) continue;
-    if (there.kind == ModeThere::everywhere) limit = std::min(limit, distance);
+    if (there.kind == ModePart::nowhere) continue;
+    if (there.kind == ModePart::everywhere) limit = std::min(limit, distance);
     if (there.feasible_in_middle) limit = std::min(limit, std::hypot(square.s, square.t));
     if (square.half < 1e-300) return 0;
     const double half = 0.5 * square.half;

@@ -17,6 +17,7 @@
 #include "planner/console.hpp"
 #include "planner/region_command.hpp"
 #include "planner/search.hpp"
+#include "planner/simulate_command.hpp"
 #include "terrain/document.hpp"
 
 namespace {
@@ -41,6 +42,7 @@ std::string version() {
 struct Arguments {
   PlanArguments plan;
   RegionArguments region;
+  SimulateArguments simulate;
   std::string check_scene, check_plan, query_file = "-";
   bool query_stats = false;
 };
@@ -110,6 +112,32 @@ CLI::App* add_region(CLI::App& app, RegionArguments& a) {
   return region;
 }
 
+CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
+  CLI::App* simulate = app.add_subcommand("simulate", "Hybrid dynamics of a posture after a push: collisions, slides, rest or not");
+  simulate->add_option("POSTURE", a.posture, "a query line of one or two contacts (JSON), - for standard input; may have\n"
+                       "restitution, gravity, q, q_rate, heights, heights_rate");
+  simulate->add_option("--restitution", a.restitution, "coefficient of restitution, between 0 and 1")->type_name("E");
+  simulate->add_option("--com", a.com, "COM [m]")->type_name("X,Y");
+  simulate->add_option("--q", a.q, "start: displacement and turn [m, m, rad]")->type_name("RX,RY,THETA");
+  simulate->add_option("--q-rate", a.q_rate, "start: velocity [m/s, m/s, rad/s]")->type_name("VX,VY,OMEGA");
+  simulate->add_option("--heights", a.heights, "start, instead of --q: heights of the contacts and turn")->type_name("H1,H2,THETA");
+  simulate->add_option("--heights-rate", a.heights_rate, "start, instead of --q-rate: their rates")->type_name("U1,U2,OMEGA");
+  simulate->add_option("--gravity", a.gravity, "[m/s^2] (default 9.81)")->type_name("G");
+  simulate->add_option("--neighbourhood", a.neighbourhood, "displacement at which the body has left [m] (default: a tenth of\n"
+                       "the distance of the contacts)")->type_name("D");
+  simulate->add_option("--time-limit", a.time_limit, "simulated seconds (default 100)")->type_name("S");
+  simulate->add_flag("--linearised", a.linearised, "the linearised dynamics about the posture");
+  simulate->add_option("--sample", a.sample, "random pushes; without com random COMs, without POSTURE random postures")->type_name("N");
+  simulate->add_option("--size", a.size, "of random pushes, relative to the distance of the contacts (default 1e-6)")->type_name("X");
+  simulate->add_option("--seed", a.seed, "of random pushes (default 1)")->type_name("N");
+  simulate->add_option("--svg", a.svg, "draw heights and angle over time; - for standard output")->type_name("FILE");
+  simulate->add_option("--json", a.json, "outcome and events; - for standard output")->type_name("FILE");
+  simulate->footer(
+      "Exit status: 0 done, whatever the outcome, 2 bad input or usage.\n"
+      "Example: surefoot simulate docs/figures/postures/vee_frictional.json --heights 1e-3,2e-3,0 --svg motion.svg");
+  return simulate;
+}
+
 /// What the parser says, with the option or command that may have been meant.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
   std::vector<std::string> commands, options{"--help", "--version"};
@@ -149,8 +177,9 @@ int run(int count, char** words) {
   const CLI::App* check = add_check(app, arguments);
   add_query(app, arguments);
   const CLI::App* region = add_region(app, arguments.region);
+  const CLI::App* simulate = add_simulate(app, arguments.simulate);
   if (count <= 1) {
-    report_error("a command is missing: plan, check, query or region (surefoot --help tells more)");
+    report_error("a command is missing: plan, check, query, region or simulate (surefoot --help tells more)");
     return exit_bad_input;
   }
   try {
@@ -168,6 +197,7 @@ int run(int count, char** words) {
   if (plan->parsed()) return run_plan(arguments.plan);
   if (check->parsed()) return run_check(arguments.check_scene, arguments.check_plan);
   if (region->parsed()) return run_region(arguments.region);
+  if (simulate->parsed()) return run_simulate(arguments.simulate);
   return run_query(arguments.query_file, arguments.query_stats);
 }
 

@@ -11,11 +11,11 @@
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/output_file.hpp"
+#include "planner/posture_input.hpp"
 
 namespace surefoot::planner {
 namespace {
 
-using stability::Contact;
 using terrain::Document;
 using terrain::InputError;
 using terrain::Node;
@@ -26,32 +26,12 @@ struct Subject {
   gaits::RegionFigure figure;
 };
 
-/// "a,b,c": numbers between commas.
-std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count, const char* form) {
-  std::vector<double> values;
-  std::size_t begin = 0;
-  try {
-    for (;;) {
-      const std::size_t end = text.find(',', begin);
-      const std::string part = text.substr(begin, end == std::string::npos ? end : end - begin);
-      const Document parsed = Document::parse(part, option);  // numbers as in scenes, whatever the locale
-      values.push_back(parsed.root().number("number"));
-      if (end == std::string::npos) break;
-      begin = end + 1;
-    }
-  } catch (const InputError&) {
-    values.clear();
-  }
-  if (values.size() != count) throw InputError(fmt::format("{}: found {}, expected {}", option, one_line(text), form));
-  return values;
-}
-
 std::vector<int> legs_of(const std::string& text) {
   const char* form = "two or three legs as 1,2 or 1,2,3";
   const auto commas = static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
   if (commas != 1 && commas != 2) throw InputError(fmt::format("--stance: found {}, expected {}", one_line(text), form));
   std::vector<int> legs;
-  for (const double value : numbers("--stance", text, commas + 1, form)) {
+  for (const double value : read_numbers("--stance", text, commas + 1, form)) {
     const int leg = value == 1 ? 0 : value == 2 ? 1 : value == 3 ? 2 : -1;
     if (leg < 0 || std::find(legs.begin(), legs.end(), leg) != legs.end())
       throw InputError(fmt::format("--stance: found {}, expected {}", one_line(text), form));
@@ -88,34 +68,18 @@ void read_scene(const RegionArguments& arguments, Subject& subject) {
   subject.figure.box = {{}, scene.disturbance.kappa, scene.disturbance.nu};
 }
 
-Eigen::Vector2d point(const Node& node, const char* what) {
-  const auto& items = node.items(what, 2);
-  return {items[0].number(what), items[1].number(what)};
-}
-
 /// A query line (formats.md) whose `com`, if it is there, is only marked.
 void read_posture(const RegionArguments& arguments, Subject& subject) {
   const std::string& path = *arguments.posture;
-  const Document document = path == "-" ? Document::parse(read_stdin(), "<stdin>") : Document::read_file(path);
+  const Document document = read_document(path);
   const Node& root = document.root();
   root.allow_only({"contacts", "com", "rho", "kappa", "nu"}, "posture");
-  const Node& contacts = root.require("contacts", "posture");
-  const auto& list = contacts.items("contacts");
-  if (list.empty() || list.size() > 3) contacts.fail(fmt::format("contacts: found {}, expected 1 to 3", list.size()));
-  for (const Node& item : list) {
-    item.allow_only({"p", "n", "mu"}, "contact");
-    Contact contact;
-    contact.position = point(item.require("p", "contact"), "p");
-    contact.normal = point(item.require("n", "contact"), "n");
-    contact.friction = item.require("mu", "contact").not_negative("mu");
-    if (contact.normal.isZero(0)) item.require("n", "contact").fail("n: a normal may not be zero");
-    subject.figure.contacts.push_back(contact);
-    subject.figure.contact_names.push_back(std::to_string(subject.figure.contacts.size()));
-  }
+  subject.figure.contacts = read_contacts(root, 1, 3);
+  for (std::size_t i = 1; i <= subject.figure.contacts.size(); ++i) subject.figure.contact_names.push_back(std::to_string(i));
   subject.figure.radius_of_gyration = root.require("rho", "posture").positive("rho");
   subject.figure.box.kappa = root.require("kappa", "posture").not_negative("kappa");
   subject.figure.box.nu = root.require("nu", "posture").not_negative("nu");
-  if (const Node* com = root.find("com")) subject.figure.com = point(*com, "com");
+  if (const Node* com = root.find("com")) subject.figure.com = read_point(*com, "com");
   subject.figure.title = path == "-" ? "posture" : std::filesystem::path(path).stem().string();
 }
 
@@ -130,7 +94,7 @@ Subject read_subject(const RegionArguments& arguments) {
   else
     read_posture(arguments, subject);
   if (arguments.wrench) {
-    const std::vector<double> wrench = numbers("--wrench", *arguments.wrench, 2, "p,q");
+    const std::vector<double> wrench = read_numbers("--wrench", *arguments.wrench, 2, "p,q");
     subject.figure.box = {{wrench[0], wrench[1]}, 0, 0};
   }
   return subject;
@@ -140,7 +104,7 @@ stability::RegionOptions options_of(const RegionArguments& arguments) {
   stability::RegionOptions options;
   if (!arguments.window) return options;
   const char* form = "xmin,ymin,xmax,ymax with xmin < xmax and ymin < ymax";
-  const std::vector<double> w = numbers("--window", *arguments.window, 4, form);
+  const std::vector<double> w = read_numbers("--window", *arguments.window, 4, form);
   if (!(w[0] < w[2] && w[1] < w[3]))
     throw InputError(fmt::format("--window: found {}, expected {}", one_line(*arguments.window), form));
   options.window = Eigen::AlignedBox2d(Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3]));

@@ -15,6 +15,9 @@ namespace {
 constexpr double rounding = 0.5 * std::numeric_limits<double>::epsilon();
 constexpr double died_out = 1e-12;  ///< of the greatest speed of a run: ten local errors of motion with closed contacts
 
+/// A change of mode costs about as much as this many collisions.
+constexpr std::uint64_t work_of_mode = 1000;
+
 class Run {
  public:
   Run(const HybridBody& body, const BodyState& start, const HybridOptions& options,
@@ -26,7 +29,7 @@ class Run {
   HybridRun go() {
     using enum HybridRun::Outcome;
     while (!ended_) {
-      if (time_ >= options_.time_limit || run_.collisions + run_.modes > options_.most_collisions)
+      if (time_ >= options_.time_limit || run_.collisions + work_of_mode * run_.modes > options_.most_collisions)
         end(undecided);
       else if (body_.excursion(state_) > options_.neighbourhood)
         end(left);

@@ -33,7 +33,7 @@ struct HybridOptions {
   double restitution = 0.5;                    ///< 0 < e < 1
   double neighbourhood = 0.1;                  ///< [m] of HybridBody::excursion: the run ends beyond
   double time_limit = 100;                     ///< [s]
-  std::uint64_t most_collisions = 10'000'000;  ///< and changes of mode together
+  std::uint64_t most_collisions = 10'000'000;  ///< a change of mode counts as 1000 of them
 };
 
 struct HybridEvent {

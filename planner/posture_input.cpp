@@ -1,0 +1,61 @@
+#include "planner/posture_input.hpp"
+
+#include <fmt/format.h>
+
+#include "planner/commands.hpp"
+#include "planner/console.hpp"
+
+namespace surefoot::planner {
+
+using terrain::Document;
+using terrain::InputError;
+using terrain::Node;
+
+Document read_document(const std::string& path) {
+  return path == "-" ? Document::parse(read_stdin(), "<stdin>") : Document::read_file(path);
+}
+
+Eigen::Vector2d read_point(const Node& node, const char* what) {
+  const auto& items = node.items(what, 2);
+  return {items[0].number(what), items[1].number(what)};
+}
+
+std::vector<stability::Contact> read_contacts(const Node& root, std::size_t least, std::size_t most) {
+  const Node& contacts = root.require("contacts", "posture");
+  const auto& list = contacts.items("contacts");
+  if (list.size() < least || list.size() > most)
+    contacts.fail(fmt::format("contacts: found {}, expected {} to {}", list.size(), least, most));
+  std::vector<stability::Contact> result;
+  for (const Node& item : list) {
+    item.allow_only({"p", "n", "mu"}, "contact");
+    stability::Contact contact;
+    contact.position = read_point(item.require("p", "contact"), "p");
+    contact.normal = read_point(item.require("n", "contact"), "n");
+    contact.friction = item.require("mu", "contact").not_negative("mu");
+    if (contact.normal.isZero(0)) item.require("n", "contact").fail("n: a normal may not be zero");
+    result.push_back(contact);
+  }
+  return result;
+}
+
+std::vector<double> read_numbers(const std::string& option, const std::string& text, std::size_t count,
+                                 const char* form) {
+  std::vector<double> values;
+  std::size_t begin = 0;
+  try {
+    for (;;) {
+      const std::size_t end = text.find(',', begin);
+      const std::string part = text.substr(begin, end == std::string::npos ? end : end - begin);
+      const Document parsed = Document::parse(part, option);
+      values.push_back(parsed.root().number("number"));
+      if (end == std::string::npos) break;
+      begin = end + 1;
+    }
+  } catch (const InputError&) {
+    values.clear();
+  }
+  if (values.size() != count) throw InputError(fmt::format("{}: found {}, expected {}", option, one_line(text), form));
+  return values;
+}
+
+}  // namespace surefoot::planner

@@ -1,0 +1,22 @@
+// A posture as a file (a query line of formats.md, here as a document with located errors): what commands share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stability/contact.hpp"
+#include "terrain/document.hpp"
+
+namespace surefoot::planner {
+
+/// A file, "-" for stdin.
+terrain::Document read_document(const std::string& path);
+/// `contacts` of a posture: `least` to `most` of them.
+std::vector<stability::Contact> read_contacts(const terrain::Node& root, std::size_t least, std::size_t most);
+/// [x, y]
+Eigen::Vector2d read_point(const terrain::Node& node, const char* what);
+/// "a,b,c" behind an option: `count` numbers as in scenes, whatever the locale.
+std::vector<double> read_numbers(const std::string& option, const std::string& text, std::size_t count,
+                                 const char* form);
+
+}  // namespace surefoot::planner

@@ -1,0 +1,217 @@
+#include "planner/simulate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "gaits/motion_svg.hpp"
+#include "planner/commands.hpp"
+#include "planner/console.hpp"
+#include "planner/output_file.hpp"
+#include "planner/posture_input.hpp"
+
+namespace surefoot::planner {
+namespace {
+
+using stability::BodyState;
+using stability::HybridBody;
+using terrain::InputError;
+using terrain::Node;
+
+constexpr double earth_gravity = 9.81;       // [m/s^2]
+constexpr double usual_neighbourhood = 0.1;  // of the extent of the posture
+constexpr double usual_time_limit = 100;     // [s]
+constexpr double usual_size = 1e-6;          // of the extent
+
+struct Subject {
+  std::string title = "random postures";
+  SampleRequest request;
+  std::optional<Eigen::Vector3d> q, q_rate, heights, heights_rate;
+};
+
+Eigen::Vector3d triple(const Node& node, const char* what) {
+  const auto& items = node.items(what, 3);
+  return {items[0].number(what), items[1].number(what), items[2].number(what)};
+}
+
+std::optional<Eigen::Vector3d> triple(const std::optional<std::string>& text, const char* option, const char* form) {
+  if (!text) return std::nullopt;
+  const auto values = read_numbers(option, *text, 3, form);
+  return Eigen::Vector3d(values[0], values[1], values[2]);
+}
+
+double positive(double value, const char* option) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw InputError(fmt::format("{}: found {}, expected a number > 0", option, value));
+  return value;
+}
+
+double restitution(double e, const std::string& place) {
+  if (!(e > 0 && e < 1))
+    throw InputError(fmt::format("{}: found {}, expected a number between 0 and 1, ends excluded", place, e));
+  return e;
+}
+
+void read_file(const std::string& path, Subject& subject) {
+  const terrain::Document document = read_document(path);
+  const Node& root = document.root();
+  root.allow_only(
+      {"contacts", "com", "rho", "kappa", "nu", "restitution", "gravity", "q", "q_rate", "heights", "heights_rate"},
+      "posture");
+  subject.request.contacts = read_contacts(root, 1, 2);
+  subject.request.rho = root.require("rho", "posture").positive("rho");
+  if (const Node* com = root.find("com")) subject.request.com = read_point(*com, "com");
+  if (const Node* e = root.find("restitution")) {
+    const double value = e->positive("restitution");
+    if (value >= 1)
+      e->fail(fmt::format("restitution: found {}, expected a number between 0 and 1, ends excluded", value));
+    subject.request.options.restitution = value;
+  }
+  if (const Node* g = root.find("gravity")) subject.request.gravity = g->positive("gravity");
+  if (const Node* q = root.find("q")) subject.q = triple(*q, "q");
+  if (const Node* q = root.find("q_rate")) subject.q_rate = triple(*q, "q_rate");
+  if (const Node* h = root.find("heights")) subject.heights = triple(*h, "heights");
+  if (const Node* h = root.find("heights_rate")) subject.heights_rate = triple(*h, "heights_rate");
+  subject.title = path == "-" ? "posture" : std::filesystem::path(path).stem().string();
+}
+
+Subject read_subject(const SimulateArguments& a) {
+  Subject subject;
+  SampleRequest& request = subject.request;
+  request.options.restitution = 0;
+  request.gravity = earth_gravity;
+  if (!a.posture && !a.sample)
+    throw InputError("nothing to simulate: expected a posture file, or --sample N for random postures");
+  if (a.posture) read_file(*a.posture, subject);
+  if (a.com) {
+    const auto com = read_numbers("--com", *a.com, 2, "x,y");
+    request.com = Eigen::Vector2d(com[0], com[1]);
+  }
+  if (a.restitution) request.options.restitution = restitution(*a.restitution, "--restitution");
+  if (a.gravity) request.gravity = positive(*a.gravity, "--gravity");
+  if (const auto given = triple(a.q, "--q", "rx,ry,theta")) subject.q = given;
+  if (const auto given = triple(a.q_rate, "--q-rate", "vx,vy,omega")) subject.q_rate = given;
+  if (const auto given = triple(a.heights, "--heights", "h1,h2,theta")) subject.heights = given;
+  if (const auto given = triple(a.heights_rate, "--heights-rate", "u1,u2,omega")) subject.heights_rate = given;
+  if (request.options.restitution == 0)
+    throw InputError("restitution is missing: expected in the posture or as --restitution");
+  request.options.time_limit = a.time_limit ? positive(*a.time_limit, "--time-limit") : usual_time_limit;
+  request.neighbourhood_given = a.neighbourhood.has_value();
+  if (a.neighbourhood) request.options.neighbourhood = positive(*a.neighbourhood, "--neighbourhood");
+  request.size = a.size ? positive(*a.size, "--size") : usual_size;
+  if (a.sample && *a.sample < 1) throw InputError(fmt::format("--sample: found {}, expected a count >= 1", *a.sample));
+  if (a.seed && *a.seed < 0) throw InputError(fmt::format("--seed: found {}, expected a number >= 0", *a.seed));
+  request.runs = static_cast<std::uint64_t>(a.sample.value_or(0));
+  request.seed = static_cast<std::uint64_t>(a.seed.value_or(1));
+  return subject;
+}
+
+BodyState start_of(const HybridBody& body, const Subject& subject) {
+  if ((subject.q || subject.q_rate) && (subject.heights || subject.heights_rate))
+    throw InputError("the start is given twice: expected q and q_rate, or heights and heights_rate");
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  BodyState state;
+  if (subject.heights || subject.heights_rate) {
+    if (body.parallel_normals())
+      throw InputError("heights: the normals of the contacts are parallel and leave the place open, give q and q_rate");
+    state = body.state_at_heights(subject.heights.value_or(zero), subject.heights_rate.value_or(zero));
+  } else {
+    state = body.state_at(subject.q.value_or(zero), subject.q_rate.value_or(zero));
+  }
+  for (int i = 0; i < body.contacts(); ++i)
+    if (!(state.h[static_cast<std::size_t>(i)] >= 0))
+      throw InputError(fmt::format("contact {} starts {:.6g} m below the ground, expected a height >= 0", i + 1,
+                                   -state.h[static_cast<std::size_t>(i)]));
+  return state;
+}
+
+/// Files that must not be one another, nor what is read.
+struct Outputs {
+  std::unique_ptr<OutputFile> svg, json;
+  bool to_stdout = false;
+
+  explicit Outputs(const SimulateArguments& arguments) {
+    open(arguments.svg, svg, arguments.posture);
+    open(arguments.json, json, arguments.posture);
+    if (svg && json && svg->same_as(json->path()))
+      throw InputError(fmt::format("{}: both --svg and --json would write this file", json->path()));
+  }
+  void deliver(const std::optional<std::string>& path, OutputFile* file, const std::string& text) const {
+    if (file != nullptr) file->stage(text);
+    if (path == "-") write_stdout(text);
+  }
+  void commit() const {
+    for (OutputFile* file : {svg.get(), json.get()})
+      if (file != nullptr) {
+        file->commit();
+        note("wrote " + file->path());
+      }
+  }
+
+ private:
+  void open(const std::optional<std::string>& path, std::unique_ptr<OutputFile>& file,
+            const std::optional<std::string>& input) {
+    if (!path) return;
+    if (*path == "-") {
+      if (to_stdout) throw InputError("--svg - and --json -: standard output can hold one of them");
+      to_stdout = true;
+      return;
+    }
+    file = std::make_unique<OutputFile>(*path);
+    if (input && *input != "-" && file->same_as(*input))
+      throw InputError(fmt::format("{}: is the input itself and would be overwritten", *path));
+  }
+};
+
+SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
+  SimulateRecord record;
+  record.title = subject.title;
+  record.restitution = subject.request.options.restitution;
+  record.start = start_of(body, subject);
+  record.run =
+      stability::simulate(body, record.start, subject.request.options, [&record](const stability::HybridEvent& event) {
+        if (record.events.size() < most_events)
+          record.events.push_back(event);
+        else
+          ++record.omitted;
+      });
+  return record;
+}
+
+}  // namespace
+
+int run_simulate(const SimulateArguments& arguments) {
+  Subject subject = read_subject(arguments);
+  SampleRequest& request = subject.request;
+  const Outputs outputs(arguments);
+  if (arguments.sample) {
+    if (arguments.svg) throw InputError("--svg: a sample of many runs has no picture");
+    if (subject.q || subject.q_rate || subject.heights || subject.heights_rate)
+      throw InputError("--sample draws the pushes: leave out q, q_rate, heights and heights_rate");
+    if (!request.contacts.empty() && request.contacts.size() != 2)
+      throw InputError("--sample: expected a posture of two contacts");
+    const SampleReport report = sample_pushes(request);
+    outputs.deliver(arguments.json, outputs.json.get(), report.json);
+    if (!outputs.to_stdout) write_stdout(report.text);
+    outputs.commit();
+    return exit_success;
+  }
+  if (!request.com) throw InputError("com is missing: expected in the posture or as --com x,y");
+  const HybridBody body(request.contacts, *request.com, request.rho, request.gravity, arguments.linearised);
+  if (!request.neighbourhood_given) request.options.neighbourhood = usual_neighbourhood * body.extent();
+  const SimulateRecord record = record_run(body, subject);
+  if (arguments.svg) {
+    gaits::MotionFigure figure{record.title, {}, body.contacts(), record.start, record.events};
+    figure.result = fmt::format("{} after {:.6g} s, {} collisions", name(record.run.outcome), record.run.time,
+                                record.run.collisions);
+    outputs.deliver(arguments.svg, outputs.svg.get(), gaits::to_svg(figure));
+  }
+  if (arguments.json) outputs.deliver(arguments.json, outputs.json.get(), simulation_to_json(body, record));
+  if (!outputs.to_stdout) write_stdout(simulation_to_text(body, record));
+  outputs.commit();
+  return exit_success;
+}
+
+}  // namespace surefoot::planner

@@ -134,7 +134,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   simulate->add_option("--json", a.json, "outcome and events; - for standard output")->type_name("FILE");
   simulate->footer(
       "Exit status: 0 done, whatever the outcome, 2 bad input or usage.\n"
-      "Example: surefoot simulate docs/figures/postures/vee_frictional.json --heights 1e-3,2e-3,0 --svg motion.svg");
+      "Example: surefoot simulate docs/examples/pushed_vee.json --heights 1e-3,2e-3,0 --svg motion.svg");
   return simulate;
 }
 

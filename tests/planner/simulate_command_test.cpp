@@ -1,0 +1,103 @@
+// `surefoot simulate` as a user runs it: outcomes with known answers, events, and one clear line for everything
+// improper.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "program.hpp"
+
+using nlohmann::json;
+using surefoot::tests::Workplace;
+
+namespace {
+
+constexpr double g = 9.81;
+const std::string ball = R"({"contacts": [{"p": [0, 0], "n": [0, 1], "mu": 0.5}], "com": [0, 0.3], "rho": 0.1})";
+const std::string level =
+    R"({"contacts": [{"p": [-0.5, 0], "n": [0, 1], "mu": 0.5}, {"p": [0.5, 0], "n": [0, 1], "mu": 0.5}], )"
+    R"("com": [0, 0.2], "rho": 0.1, "restitution": 0.1})";
+const std::string vee =
+    R"({"contacts": [{"p": [-0.5, 0.15], "n": [0.4, 1], "mu": 0.5}, {"p": [0.5, 0.15], "n": [-0.4, 1], "mu": 0.5}], )"
+    R"("com": [0, 0.18], "rho": 0.15, "restitution": 0.1})";
+
+}  // namespace
+
+TEST_CASE("A dropped ball comes to rest when its bounces have added up", "[simulate]") {
+  const Workplace place;
+  place.write("ball.json", ball);
+  for (const char* e : {"0.5", "0.999999"}) {
+    const auto outcome =
+        place.run(std::string("simulate ball.json --q 0,0.2,0 --time-limit 1e9 --json - --restitution ") + e);
+    REQUIRE(outcome.status == 0);
+    const json tree = json::parse(outcome.out);
+    const double fall = std::sqrt(2 * 0.2 / g), ends = fall + 2 * std::stod(e) * g * fall / (g * (1 - std::stod(e)));
+    CHECK(tree["outcome"] == "left");  // 0.2 m is more than a tenth of the radius of gyration
+    const auto wider = place.run(
+        std::string("simulate ball.json --q 0,0.2,0 --time-limit 1e9 --neighbourhood 1 --json - --restitution ") + e);
+    const json full = json::parse(wider.out);
+    CHECK(full["outcome"] == "rest");
+    CHECK(full["time"].get<double>() == Approx(ends).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("A sliding block stops after v^2 / (2 mu g)", "[simulate]") {
+  const Workplace place;
+  place.write("level.json", level);
+  const double v = 0.3, way = v * v / (2 * 0.5 * g);
+  const auto outcome = place.run("simulate level.json --q-rate 0.3,0,0 --json out.json --svg out.svg");
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out.find("at rest") != std::string::npos);
+  const json tree = json::parse(place.read("out.json"));
+  CHECK(tree["outcome"] == "rest");
+  CHECK(tree["q"][0].get<double>() == Approx(way).epsilon(1e-11));
+  CHECK(tree["time"].get<double>() == Approx(v / (0.5 * g)).epsilon(1e-11));
+  CHECK(tree["collisions"] == 0);
+  CHECK(tree["events"][0]["mode"] == "UU");
+  CHECK(place.read("out.svg").find("<svg") != std::string::npos);
+}
+
+TEST_CASE("Pushed postures of the guaranteed region return to rest, all of them, the same on every run", "[simulate]") {
+  const Workplace place;
+  place.write("vee.json", vee);
+  const auto outcome = place.run("simulate vee.json --sample 100 --json -"),
+             again = place.run("simulate vee.json --sample 100 --json -");
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out == again.out);
+  const json tree = json::parse(outcome.out);
+  CHECK(tree["classes"]["guaranteed"]["runs"] == 100);
+  CHECK(tree["classes"]["guaranteed"]["rest"] == 100);
+}
+
+TEST_CASE("Improper input to simulate ends with one line and status 2", "[simulate]") {
+  const Workplace place;
+  place.write("vee.json", vee);
+  place.write("ball.json", ball);
+  const struct {
+    const char *arguments, *says;
+  } cases[] = {
+      {"simulate", "expected a posture file"},
+      {"simulate missing.json", "missing.json"},
+      {"simulate ball.json", "restitution is missing"},
+      {"simulate ball.json --restitution 1", "between 0 and 1"},
+      {"simulate vee.json --restitution -0.1", "between 0 and 1"},
+      {"simulate vee.json --q 0,-1,0", "below the ground"},
+      {"simulate vee.json --q 0,1", "expected rx,ry,theta"},
+      {"simulate vee.json --q 0,0,nan", "expected rx,ry,theta"},
+      {"simulate vee.json --q 0,0.1,0 --heights 0,0,0", "given twice"},
+      {"simulate vee.json --sample 0", "expected a count >= 1"},
+      {"simulate vee.json --sample 5 --svg out.svg", "no picture"},
+      {"simulate vee.json --json vee.json", "would be overwritten"},
+      {"simulate vee.json --svg - --json -", "one of them"},
+      {"simulate vee.json --gravity 0", "expected a number > 0"},
+  };
+  for (const auto& c : cases) {
+    const auto outcome = place.run(c.arguments);
+    INFO(c.arguments << ": " << outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.one_error());
+    CHECK(outcome.err.find(c.says) != std::string::npos);
+    CHECK(outcome.out.empty());
+  }
+  CHECK(place.count() == 2);
+}

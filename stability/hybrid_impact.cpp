@@ -30,7 +30,7 @@ double time_to_contact(const HybridBody& body, const BodyState& start, int i, do
     if (h == 0 && rate > 0) reach = second < 0 ? std::min(horizon - s, -2 * rate / second) : horizon - s;
     if (third > 0) {
       reach = std::min(reach, 0.5 / swing);
-      if (second > 0) reach = std::min(reach, 0.5 * second / third);
+      if (h == 0 && rate == 0 && second > 0) reach = std::min(reach, 0.5 * second / third);
     }
     if (!(reach > 0)) {
       if (s > 0 || rate < 0) return s;

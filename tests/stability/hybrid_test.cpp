@@ -29,7 +29,7 @@ std::vector<Contact> feet(double left_lean, double right_lean, double mu) {
 
 /// Rod of [OR-H, section IV.C]: half length L = 1, psi = (1 - rho^2) / (1 + rho^2).
 HybridBody rod(double psi) {
-  const std::vector<Contact> ends{{{-1, 0}, {0, 1}, 0}, {{1, 0}, {0, 1}, 0}};
+  const std::vector<Contact> ends{{{-1, 0}, {0, 1}, 0.5}, {{1, 0}, {0, 1}, 0.5}};
   return {ends, {0, 0}, std::sqrt((1 - psi) / (1 + psi)), g, true};
 }
 
@@ -86,17 +86,16 @@ Big height_in_flight(const HybridBody& body, const Vector2d& arm, int i, const B
 }  // namespace
 
 TEST_CASE("A bouncing ball ends at t0 + 2 u0 / (g (1 - e)), whatever its restitution and height", "[hybrid]") {
-  const std::vector<Contact> contact{{{0, 0}, {0, 1}, 0.5}};
+  const std::vector<Contact> contact{{{0, 0}, {0, 1}, 0}};
   const HybridBody body(contact, {0, 0.3}, 0.1, g);
   HybridOptions options;
   options.neighbourhood = 10, options.time_limit = 1e12;
   for (const double e : {1e-9, 0.1, 0.5, 0.9, 0.999999, 1 - 1e-9})
     for (const double height : {1.0, 1e-3, 1e-12}) {
       options.restitution = e;
-      const HybridRun run = simulate(body, body.state_at({0.1, height, 0}, {0.2, 0, 0}), options);
       const double fall = std::sqrt(2 * height / g), limit = fall + 2 * e * fall / (1 - e);
       INFO("e " << e << ", height " << height);
-      // It arrives sliding at 0.2 m/s and then turns about its foot: what counts is the end of the bouncing.
+      // It arrives sliding at 0.2 m/s and slides on: what counts is the end of the bouncing.
       HybridEvent end;
       simulate(body, body.state_at({0.1, height, 0}, {0.2, 0, 0}), options, [&end](const HybridEvent& event) {
         if (event.kind == HybridEvent::Kind::bouncing && end.time == 0) end = event;
@@ -105,7 +104,6 @@ TEST_CASE("A bouncing ball ends at t0 + 2 u0 / (g (1 - e)), whatever its restitu
       CHECK(end.state.v.x() == Approx(0.2).epsilon(1e-12).margin(0));
       CHECK(end.state.r.x() == Approx(0.1 + 0.2 * limit).epsilon(1e-12).margin(0));
       CHECK(end.state.h[0] == 0);
-      CHECK(run.collisions >= 1);
     }
 }
 

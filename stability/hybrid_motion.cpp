@@ -126,7 +126,7 @@ class Motion {
  private:
   template <class F>
   static std::pair<double, double> root(F&& f, double low, double high, double at_low, double at_high) {
-    if (at_high == 0) return {high, high};
+    if (!((at_low > 0 && at_high < 0) || (at_low < 0 && at_high > 0))) return {high, high};
     boost::uintmax_t most = 100;
     return boost::math::tools::toms748_solve(f, low, high, at_low, at_high,
                                              boost::math::tools::eps_tolerance<double>(52), most);

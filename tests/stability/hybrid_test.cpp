@@ -107,7 +107,7 @@ TEST_CASE("A bouncing ball ends at t0 + 2 u0 / (g (1 - e)), whatever its restitu
     }
 }
 
-TEST_CASE("Collisions of the linearised body are those of 50 digits; the Poincare map steps between them", "[hybrid]") {
+TEST_CASE("Collisions of the linearised body are those of 50 digits, and the Poincare map steps between them", "[hybrid]") {
   Sampler sampler(301);
   int clatterings = 0;
   for (int k = 0; k < rounds(200); ++k) {
@@ -235,7 +235,7 @@ TEST_CASE("Above (10) every clattering of the rod under gravity comes to its lim
   }
 }
 
-TEST_CASE("Every push within the guarantee of Theorem 3 ends at rest near the start; energy never grows", "[hybrid]") {
+TEST_CASE("Every push within the guarantee of Theorem 3 ends at rest near the start, and energy never grows", "[hybrid]") {
   Sampler sampler(304);
   int inside = 0;
   for (int k = 0; k < rounds(40000) && inside < rounds(200); ++k) {

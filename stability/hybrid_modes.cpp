@@ -79,7 +79,9 @@ ModeChoice choose(const HybridBody& body, const BodyState& state, double slack) 
       ContactMode mode;
       mode.contacts = body.contacts();
       mode.at = {*first, *second, ContactState::breaks};
-      if (*first == ContactState::rolls && *second == ContactState::rolls) continue;
+      // A foot that rolls beside one that stays leaves no motion: its accelerations would be rounding.
+      using enum ContactState;
+      if ((*first == rolls && *second != breaks) || (*second == rolls && *first != breaks)) continue;
       const auto motion = motion_in(body, state, mode);
       if (!motion || !consistent(body, state, mode, *motion, slack)) continue;
       ++choice.consistent;

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
-#include "planner/output_file.hpp"
+#include "planner/figure_outputs.hpp"
 #include "planner/posture_input.hpp"
 
 namespace surefoot::planner {
@@ -111,54 +110,19 @@ stability::RegionOptions options_of(const RegionArguments& arguments) {
   return options;
 }
 
-/// Files that must not be one another, nor what is read.
-struct Outputs {
-  std::unique_ptr<OutputFile> svg, json;
-  bool to_stdout = false;
-};
-
-Outputs open_outputs(const RegionArguments& arguments) {
-  Outputs outputs;
-  const std::string input = arguments.scene.value_or(arguments.posture.value_or("-"));
-  const auto open = [&](const std::optional<std::string>& path, std::unique_ptr<OutputFile>& file) {
-    if (!path) return;
-    if (*path == "-") {
-      if (outputs.to_stdout) throw InputError("--svg - and --json -: standard output can hold one of them");
-      outputs.to_stdout = true;
-      return;
-    }
-    file = std::make_unique<OutputFile>(*path);
-    if (input != "-" && file->same_as(input))
-      throw InputError(fmt::format("{}: is the input itself and would be overwritten", *path));
-  };
-  open(arguments.svg, outputs.svg);
-  open(arguments.json, outputs.json);
-  if (outputs.svg && outputs.json && outputs.svg->same_as(outputs.json->path()))
-    throw InputError(fmt::format("{}: both --svg and --json would write this file", outputs.json->path()));
-  return outputs;
-}
-
 }  // namespace
 
 int run_region(const RegionArguments& arguments) {
   const stability::RegionOptions options = options_of(arguments);
   const Subject subject = read_subject(arguments);
-  const Outputs outputs = open_outputs(arguments);
+  const FigureOutputs outputs(arguments.svg, arguments.json, arguments.scene ? arguments.scene : arguments.posture);
   const gaits::RegionFigure& figure = subject.figure;
   const stability::Region region =
       stability::region(figure.contacts, figure.radius_of_gyration, figure.box, options);
-  const auto deliver = [](const std::optional<std::string>& path, OutputFile* file, const std::string& text) {
-    if (file != nullptr) file->stage(text);
-    if (path == "-") write_stdout(text);
-  };
-  if (arguments.svg) deliver(arguments.svg, outputs.svg.get(), gaits::to_svg(figure, region));
-  if (arguments.json) deliver(arguments.json, outputs.json.get(), region_to_json(figure, region));
-  if (!outputs.to_stdout) write_stdout(region_to_text(figure, region));
-  for (OutputFile* file : {outputs.svg.get(), outputs.json.get()})
-    if (file != nullptr) {
-      file->commit();
-      note("wrote " + file->path());
-    }
+  if (outputs.wants_svg()) outputs.put_svg(gaits::to_svg(figure, region));
+  if (outputs.wants_json()) outputs.put_json(region_to_json(figure, region));
+  if (!outputs.to_stdout()) write_stdout(region_to_text(figure, region));
+  outputs.commit();
   return exit_success;
 }
 

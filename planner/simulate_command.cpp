@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <memory>
 
 #include "gaits/motion_svg.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
-#include "planner/output_file.hpp"
+#include "planner/figure_outputs.hpp"
 #include "planner/posture_input.hpp"
 
 namespace surefoot::planner {
@@ -20,10 +19,9 @@ using stability::HybridBody;
 using terrain::InputError;
 using terrain::Node;
 
-constexpr double earth_gravity = 9.81;       // [m/s^2]
-constexpr double usual_neighbourhood = 0.1;  // of the extent of the posture
-constexpr double usual_time_limit = 100;     // [s]
-constexpr double usual_size = 1e-6;          // of the extent
+constexpr double earth_gravity = 9.81;    // [m/s^2]
+constexpr double usual_time_limit = 100;  // [s]
+constexpr double usual_size = 1e-6;       // of the extent
 
 struct Subject {
   std::string title = "random postures";
@@ -98,8 +96,7 @@ Subject read_subject(const SimulateArguments& a) {
   if (request.options.restitution == 0)
     throw InputError("restitution is missing: expected in the posture or as --restitution");
   request.options.time_limit = a.time_limit ? positive(*a.time_limit, "--time-limit") : usual_time_limit;
-  request.neighbourhood_given = a.neighbourhood.has_value();
-  if (a.neighbourhood) request.options.neighbourhood = positive(*a.neighbourhood, "--neighbourhood");
+  if (a.neighbourhood) request.neighbourhood = positive(*a.neighbourhood, "--neighbourhood");
   request.size = a.size ? positive(*a.size, "--size") : usual_size;
   if (a.sample && *a.sample < 1) throw InputError(fmt::format("--sample: found {}, expected a count >= 1", *a.sample));
   if (a.seed && *a.seed < 0) throw InputError(fmt::format("--seed: found {}, expected a number >= 0", *a.seed));
@@ -127,56 +124,18 @@ BodyState start_of(const HybridBody& body, const Subject& subject) {
   return state;
 }
 
-/// Files that must not be one another, nor what is read.
-struct Outputs {
-  std::unique_ptr<OutputFile> svg, json;
-  bool to_stdout = false;
-
-  explicit Outputs(const SimulateArguments& arguments) {
-    open(arguments.svg, svg, arguments.posture);
-    open(arguments.json, json, arguments.posture);
-    if (svg && json && svg->same_as(json->path()))
-      throw InputError(fmt::format("{}: both --svg and --json would write this file", json->path()));
-  }
-  void deliver(const std::optional<std::string>& path, OutputFile* file, const std::string& text) const {
-    if (file != nullptr) file->stage(text);
-    if (path == "-") write_stdout(text);
-  }
-  void commit() const {
-    for (OutputFile* file : {svg.get(), json.get()})
-      if (file != nullptr) {
-        file->commit();
-        note("wrote " + file->path());
-      }
-  }
-
- private:
-  void open(const std::optional<std::string>& path, std::unique_ptr<OutputFile>& file,
-            const std::optional<std::string>& input) {
-    if (!path) return;
-    if (*path == "-") {
-      if (to_stdout) throw InputError("--svg - and --json -: standard output can hold one of them");
-      to_stdout = true;
-      return;
-    }
-    file = std::make_unique<OutputFile>(*path);
-    if (input && *input != "-" && file->same_as(*input))
-      throw InputError(fmt::format("{}: is the input itself and would be overwritten", *path));
-  }
-};
-
 SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
   SimulateRecord record;
   record.title = subject.title;
   record.restitution = subject.request.options.restitution;
   record.start = start_of(body, subject);
-  record.run =
-      stability::simulate(body, record.start, subject.request.options, [&record](const stability::HybridEvent& event) {
-        if (record.events.size() < most_events)
-          record.events.push_back(event);
-        else
-          ++record.omitted;
-      });
+  record.run = stability::simulate(body, record.start, subject.request.options_for(body),
+                                   [&record](const stability::HybridEvent& event) {
+                                     if (record.events.size() < most_events)
+                                       record.events.push_back(event);
+                                     else
+                                       ++record.omitted;
+                                   });
   return record;
 }
 
@@ -185,7 +144,7 @@ SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
 int run_simulate(const SimulateArguments& arguments) {
   Subject subject = read_subject(arguments);
   SampleRequest& request = subject.request;
-  const Outputs outputs(arguments);
+  const FigureOutputs outputs(arguments.svg, arguments.json, arguments.posture);
   if (arguments.sample) {
     if (arguments.svg) throw InputError("--svg: a sample of many runs has no picture");
     if (subject.q || subject.q_rate || subject.heights || subject.heights_rate)
@@ -193,23 +152,22 @@ int run_simulate(const SimulateArguments& arguments) {
     if (!request.contacts.empty() && request.contacts.size() != 2)
       throw InputError("--sample: expected a posture of two contacts");
     const SampleReport report = sample_pushes(request);
-    outputs.deliver(arguments.json, outputs.json.get(), report.json);
-    if (!outputs.to_stdout) write_stdout(report.text);
+    if (outputs.wants_json()) outputs.put_json(report.json);
+    if (!outputs.to_stdout()) write_stdout(report.text);
     outputs.commit();
     return exit_success;
   }
   if (!request.com) throw InputError("com is missing: expected in the posture or as --com x,y");
   const HybridBody body(request.contacts, *request.com, request.rho, request.gravity, arguments.linearised);
-  if (!request.neighbourhood_given) request.options.neighbourhood = usual_neighbourhood * body.extent();
   const SimulateRecord record = record_run(body, subject);
-  if (arguments.svg) {
+  if (outputs.wants_svg()) {
     gaits::MotionFigure figure{record.title, {}, body.contacts(), record.start, record.events};
     figure.result = fmt::format("{} after {:.6g} s, {} collisions", name(record.run.outcome), record.run.time,
                                 record.run.collisions);
-    outputs.deliver(arguments.svg, outputs.svg.get(), gaits::to_svg(figure));
+    outputs.put_svg(gaits::to_svg(figure));
   }
-  if (arguments.json) outputs.deliver(arguments.json, outputs.json.get(), simulation_to_json(body, record));
-  if (!outputs.to_stdout) write_stdout(simulation_to_text(body, record));
+  if (outputs.wants_json()) outputs.put_json(simulation_to_json(body, record));
+  if (!outputs.to_stdout()) write_stdout(simulation_to_text(body, record));
   outputs.commit();
   return exit_success;
 }

@@ -42,10 +42,16 @@ struct SampleRequest {
   std::vector<stability::Contact> contacts;  ///< two, or none: drawn at random for every run
   std::optional<Eigen::Vector2d> com;        ///< none: drawn over the feet
   double rho = 0;
-  stability::HybridOptions options;
-  bool neighbourhood_given = false;
+  stability::HybridOptions options;     ///< but for the neighbourhood
+  std::optional<double> neighbourhood;  ///< [m]; none: a tenth of the extent of the posture
   double gravity = 0, size = 0;
   std::uint64_t runs = 0, seed = 1;
+
+  stability::HybridOptions options_for(const stability::HybridBody& body) const {
+    stability::HybridOptions result = options;
+    result.neighbourhood = neighbourhood.value_or(0.1 * body.extent());
+    return result;
+  }
 };
 /// Shares of the runs that end at rest, by what Theorem 3 says of the posture [OR-H]: text, and JSON.
 struct SampleReport {

@@ -82,7 +82,6 @@ stability::BodyState push(const HybridBody& body, double size, Random& random) {
 }  // namespace
 
 SampleReport sample_pushes(const SampleRequest& request) {
-  constexpr double usual_neighbourhood = 0.1;  // of the extent
   Random random(request.seed);
   std::array<Counts, classes> counts;
   for (std::uint64_t k = 0; k < request.runs; ++k) {
@@ -93,9 +92,7 @@ SampleReport sample_pushes(const SampleRequest& request) {
     Counts& count =
         counts[static_cast<std::size_t>(class_of(frictional_verdict(posture, com, request.options.restitution)))];
     const HybridBody body(contacts, com, rho, request.gravity);
-    stability::HybridOptions options = request.options;
-    if (!request.neighbourhood_given) options.neighbourhood = usual_neighbourhood * body.extent();
-    const HybridRun run = stability::simulate(body, push(body, request.size, random), options);
+    const HybridRun run = stability::simulate(body, push(body, request.size, random), request.options_for(body));
     ++count.runs;
     ++count.outcome[static_cast<std::size_t>(run.outcome)];
     if (run.outcome == HybridRun::Outcome::rest)

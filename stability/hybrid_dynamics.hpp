@@ -3,10 +3,8 @@
 // until the body leaves the neighbourhood of its nominal posture.
 //
 // Accumulations (Zeno points).
-//   bouncing    one contact, the other away: completed when over all that is left of it the acceleration of the contact
-//   is
-//               constant to rounding and the other contact is not reached whatever the impulses; a ball at its first
-//               bounce
+//   bouncing    one contact, the other away: completed when over all that is left of it the contact's acceleration is
+//               constant to rounding and the other contact is not reached whatever the impulses; a ball's at once
 //   clattering  both contacts: completed when the speeds that gravity can still make of heights and rates are below
 //               rounding of the speeds of this run, for all the collisions that the restitution leaves
 //   chattering  a closed contact is hit by the other's collision, in zero time: completed as soon as it is decided that

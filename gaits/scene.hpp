@@ -71,6 +71,9 @@ struct Scene {
 /// Throws terrain::InputError with file:line:column.
 Scene load_scene(const std::string& path);
 Scene parse_scene(std::string_view text, const std::string& name);
+/// Without throwing: all faults go to the list, and there is a scene only if there are none.
+std::optional<Scene> load_scene(const std::string& path, terrain::FaultList& faults);
+std::optional<Scene> parse_scene(std::string_view text, const std::string& name, terrain::FaultList& faults);
 
 stability::Contact contact_at(const terrain::Foothold& foothold);
 

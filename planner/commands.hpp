@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gaits/scene.hpp"
 
@@ -33,8 +34,13 @@ int run_check(const std::string& scene, const std::string& plan);
 /// Lines of `file`, "-" for stdin. With `stats`, stderr tells how the answers were decided.
 int run_query(const std::string& file, bool stats);
 
+/// One line for each scene that is in order, one line for each fault of the others (FaultList::most_kept at most).
+int run_validate(const std::vector<std::string>& scenes);
+
 /// Loads a scene, "-" from stdin. For a file that does not exist the error names what may have been meant.
 gaits::Scene open_scene(const std::string& path);
+/// The same with all faults in the list: nothing if there is any.
+std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults);
 /// All of stdin.
 std::string read_stdin();
 

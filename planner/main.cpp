@@ -44,6 +44,7 @@ struct Arguments {
   RegionArguments region;
   SimulateArguments simulate;
   std::string check_scene, check_plan, query_file = "-";
+  std::vector<std::string> validate_scenes;
   bool query_stats = false;
 };
 
@@ -81,6 +82,16 @@ CLI::App* add_check(CLI::App& app, Arguments& a) {
       "Exit status: 0 the plan holds, 1 it does not (one line per fault), 2 bad input or usage.\n"
       "Example: surefoot check maps/stairs_up.yaml plan.json");
   return check;
+}
+
+CLI::App* add_validate(CLI::App& app, Arguments& a) {
+  CLI::App* validate = app.add_subcommand("validate", "Say everything that is wrong with scenes, without planning");
+  validate->add_option("SCENE", a.validate_scenes, "scene files (YAML), - for standard input")->required();
+  validate->footer(
+      "One line per fault (file:line:column: what), or one line that says what the scene holds.\n"
+      "Exit status: 0 all scenes are in order, 2 one is not, or bad usage.\n"
+      "Example: surefoot validate maps/*.yaml");
+  return validate;
 }
 
 CLI::App* add_query(CLI::App& app, Arguments& a) {
@@ -175,11 +186,12 @@ int run(int count, char** words) {
   app.footer("surefoot COMMAND --help tells more.");
   const CLI::App* plan = add_plan(app, arguments.plan);
   const CLI::App* check = add_check(app, arguments);
+  const CLI::App* validate = add_validate(app, arguments);
   add_query(app, arguments);
   const CLI::App* region = add_region(app, arguments.region);
   const CLI::App* simulate = add_simulate(app, arguments.simulate);
   if (count <= 1) {
-    report_error("a command is missing: plan, check, query, region or simulate (surefoot --help tells more)");
+    report_error("a command is missing: plan, check, validate, query, region or simulate (surefoot --help tells more)");
     return exit_bad_input;
   }
   try {
@@ -196,6 +208,7 @@ int run(int count, char** words) {
   }
   if (plan->parsed()) return run_plan(arguments.plan);
   if (check->parsed()) return run_check(arguments.check_scene, arguments.check_plan);
+  if (validate->parsed()) return run_validate(arguments.validate_scenes);
   if (region->parsed()) return run_region(arguments.region);
   if (simulate->parsed()) return run_simulate(arguments.simulate);
   return run_query(arguments.query_file, arguments.query_stats);

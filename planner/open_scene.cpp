@@ -1,9 +1,7 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <cstdio>
 #include <filesystem>
 #include <vector>
 
@@ -44,30 +42,36 @@ std::string scene_meant(const fs::path& path) {
   return {};
 }
 
-}  // namespace
-
-std::string read_stdin() {
-  constexpr std::size_t most = 256u << 20;  // bytes: far above any scene or plan, below any machine's memory
-  std::string text;
-  char chunk[1 << 16];
-  for (;;) {
-    const ssize_t count = ::read(STDIN_FILENO, chunk, sizeof chunk);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw terrain::InputError(fmt::format("<stdin>: cannot read: {}", std::strerror(errno)));
-    if (count == 0) return text;
-    text.append(chunk, static_cast<std::size_t>(count));
-    if (text.size() > most) throw terrain::InputError(fmt::format("<stdin>: more than {} bytes", most));
-  }
+/// For a path that leads nowhere: says what may have been meant.
+void check_exists(const fs::path& path) {
+  std::error_code ignored;
+  if (path.empty() || fs::exists(path, ignored)) return;
+  const std::string meant = scene_meant(path);
+  if (meant.empty()) return;
+  throw terrain::InputError(fmt::format("{}: no such file, did you mean {}?", path.string(), meant));
 }
 
+constexpr const char* stdin_name = "<stdin>";
+
+}  // namespace
+
+std::string read_stdin() { return terrain::read_all(stdin, stdin_name); }
+
 gaits::Scene open_scene(const std::string& path) {
-  if (path == "-") return gaits::parse_scene(read_stdin(), "<stdin>");
-  std::error_code ignored;
-  if (!path.empty() && !fs::exists(path, ignored)) {
-    const std::string meant = scene_meant(path);
-    if (!meant.empty()) throw terrain::InputError(fmt::format("{}: no such file, did you mean {}?", path, meant));
-  }
+  if (path == "-") return gaits::parse_scene(read_stdin(), stdin_name);
+  check_exists(path);
   return gaits::load_scene(path);
+}
+
+std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults) {
+  try {
+    if (path == "-") return gaits::parse_scene(read_stdin(), stdin_name, faults);
+    check_exists(path);
+    return gaits::load_scene(path, faults);
+  } catch (const terrain::InputError& fault) {
+    faults.add(fault);
+    return std::nullopt;
+  }
 }
 
 }  // namespace surefoot::planner

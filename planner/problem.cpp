@@ -185,6 +185,11 @@ StartChoice choose_start(StepProposals& proposals) {
   return choice;
 }
 
+terrain::InputError start_error(const gaits::Scene& scene, const StartChoice& choice) {
+  const std::string& place = scene.start.place.empty() ? scene.file : scene.start.place;
+  return terrain::InputError(fmt::format("{}: start: {}", place, choice.fault));
+}
+
 namespace {
 
 /// Parts of segments that a COM in the goal may reach, with the running sum of their lengths.

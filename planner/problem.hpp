@@ -24,6 +24,8 @@ struct StartChoice {
 };
 
 StartChoice choose_start(StepProposals& proposals);
+/// The error of a start whose fault is decided, at its place in the scene.
+terrain::InputError start_error(const gaits::Scene& scene, const StartChoice& choice);
 
 struct GoalLook {
   bool standable = false;

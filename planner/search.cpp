@@ -106,10 +106,7 @@ class Search {
   std::vector<Node> find() {
     const StartChoice start = choose_start(proposals_);
     if (start.nodes.empty()) {
-      if (start.decided) {
-        const std::string& place = scene_.start.place.empty() ? scene_.file : scene_.start.place;
-        throw terrain::InputError(fmt::format("{}: start: {}", place, start.fault));
-      }
+      if (start.decided) throw start_error(scene_, start);
       if (!is_impossible()) plan_.reason = "start is not stable: " + start.fault;
       return {};
     }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <sstream>
 
 #include "terrain/source.hpp"
@@ -42,14 +41,20 @@ class DocumentBuilder : public YAML::EventHandler {
     pool_.push_back(std::move(node));
   }
 
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { fail(mark, "aliases (*name) are not accepted"); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    tell(mark, "aliases (*name) are not accepted");
+    if (expects_key()) throw AlreadyTold();
+    Node node = make(mark);
+    node.told_ = 1;
+    pool_.push_back(std::move(node));
+  }
   void OnAnchor(const YAML::Mark& mark, const std::string& name) override {
-    fail(mark, "anchors (&" + name + ") are not accepted");
+    tell(mark, "anchors (&" + name + ") are not accepted");
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
-    check_tag(mark, tag);
     Node node = make(mark);
+    node.told_ = !check_tag(mark, tag);
     node.quoted_ = tag == "!";
     if (node.quoted_) last_quoted_ = static_cast<std::size_t>(mark.pos);
     node.content_ = store(static_cast<std::size_t>(mark.pos) + node.quoted_, value);
@@ -85,13 +90,20 @@ class DocumentBuilder : public YAML::EventHandler {
  private:
   struct Frame {
     YAML::Mark mark;
+    bool told;             // as of its node
     std::ptrdiff_t first;  // its children are pool_[first ...], keys and values in turn
     bool map;
   };
 
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const {
-    throw InputError(source_.place(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column)) + ": " +
-                     message);
+    throw source_.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column), message);
+  }
+
+  /// A fault that does not stop the building of the tree where faults are kept.
+  void tell(const YAML::Mark& mark, const std::string& message) const {
+    if (!source_.faults) fail(mark, message);
+    if (source_.faults->full()) return source_.faults->add(InputError(""));
+    source_.faults->add(source_.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column), message));
   }
 
   Node make(const YAML::Mark& mark) {
@@ -100,7 +112,7 @@ class DocumentBuilder : public YAML::EventHandler {
     Node node;
     node.source_ = &source_;
     node.line_ = static_cast<std::uint32_t>(mark.line);
-    node.column_ = static_cast<std::uint32_t>(mark.column) & 0x7FFFFFFFu;
+    node.column_ = static_cast<std::uint32_t>(mark.column) & 0x3FFFFFFFu;
     return node;
   }
 
@@ -115,10 +127,13 @@ class DocumentBuilder : public YAML::EventHandler {
     return rest.starts_with('~') || rest.starts_with("null") || rest.starts_with("Null") || rest.starts_with("NULL");
   }
 
-  void check_tag(const YAML::Mark& mark, const std::string& tag) const {
+  /// Whether there is none.
+  bool check_tag(const YAML::Mark& mark, const std::string& tag) const {
     const auto at = static_cast<std::size_t>(mark.pos);
     const bool written = at < source_.text.size() && source_.text[at] == '!';
-    if (written || !(tag.empty() || tag == "?" || tag == "!")) fail(mark, "tags (" + tag + ") are not accepted");
+    if (!written && (tag.empty() || tag == "?" || tag == "!")) return true;
+    tell(mark, "tags (" + tag + ") are not accepted");
+    return false;
   }
 
   /// A view of the value: into the text where it stands there as it is, else of a copy.
@@ -131,10 +146,10 @@ class DocumentBuilder : public YAML::EventHandler {
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, bool map) {
-    check_tag(mark, tag);
+    const bool told = !check_tag(mark, tag);
     if (expects_key()) fail(mark, "a list or map as a key; expected a word");
     if (frames_.size() >= max_depth) fail(mark, "nested deeper than " + std::to_string(max_depth) + " levels");
-    frames_.push_back({mark, static_cast<std::ptrdiff_t>(pool_.size()), map});
+    frames_.push_back({mark, told, static_cast<std::ptrdiff_t>(pool_.size()), map});
   }
 
   Frame close() {
@@ -148,24 +163,41 @@ class DocumentBuilder : public YAML::EventHandler {
     pool_.resize(static_cast<std::size_t>(frame.first));
     Node node = make(frame.mark);
     node.content_ = std::move(content);
+    node.told_ = frame.told;
     pool_.push_back(std::move(node));
   }
 
-  static void check_unique(const Node::Entries& entries) {
+  /// Refuses keys that were there before, in the order of the file; where faults are kept the first of each stays.
+  static void check_unique(Node::Entries& entries) {
     std::vector<std::size_t> order(entries.size());
     std::iota(order.begin(), order.end(), 0);
     const auto key = [&](std::size_t i) { return std::get<std::string_view>(entries[i].first.content_); };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) { return key(l) < key(r); });
-    std::optional<std::size_t> again;  // the first in the file that repeats an earlier one
-    std::size_t earlier = 0;
-    for (std::size_t k = 1; k < order.size(); ++k) {
-      if (key(order[k - 1]) != key(order[k]) || (again && *again < order[k])) continue;
-      again = order[k];
-      earlier = order[k - 1];
+    std::vector<std::pair<std::size_t, std::size_t>> again;  // the later one and the first with that key
+    for (std::size_t k = 1, first = 0; k < order.size(); ++k) {
+      if (key(order[first]) == key(order[k])) {
+        again.emplace_back(order[k], order[first]);
+      } else {
+        first = k;
+      }
     }
-    if (!again) return;
-    entries[*again].first.fail("key \"" + std::string(key(*again)) + "\" is given twice; first at line " +
-                               std::to_string(entries[earlier].first.line_ + 1));
+    std::sort(again.begin(), again.end());
+    for (const auto& [later, first] : again) {
+      const Node& node = entries[later].first;
+      node.attempt([&, at = later, line = entries[first].first.line_ + 1] {
+        node.fail("key \"" + std::string(key(at)) + "\" is given twice; first at line " + std::to_string(line));
+      });
+    }
+    if (again.empty()) return;
+    Node::Entries kept;
+    for (std::size_t i = 0, next = 0; i < entries.size(); ++i) {
+      if (next < again.size() && again[next].first == i) {
+        ++next;
+      } else {
+        kept.push_back(std::move(entries[i]));
+      }
+    }
+    entries = std::move(kept);
   }
 
   Source& source_;
@@ -182,15 +214,18 @@ Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
-Document Document::read_file(const std::string& path) { return parse(read_text(path), path); }
+Document Document::read_file(const std::string& path, FaultList* faults) {
+  return parse(read_text(path), path, faults);
+}
 
-Document Document::parse(std::string_view text, std::string name) {
+Document Document::parse(std::string_view text, std::string name, FaultList* faults) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   Document document;
   Source& source = *document.source_;
   source.name = std::move(name);
   source.text = text;
+  source.faults = faults;
   source.check_characters();
 
   std::istringstream stream(source.text);
@@ -202,10 +237,10 @@ Document Document::parse(std::string_view text, std::string name) {
   } catch (const YAML::Exception& error) {
     if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());
     const YAML::Mark mark = error.mark.is_null() ? builder.last_mark() : error.mark;
-    throw InputError(source.place(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column)) +
-                     ": not valid YAML: " + error.msg);
+    throw source.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column),
+                       "not valid YAML: " + error.msg);
   }
-  if (!builder.complete()) throw InputError(source.place(0, 0) + ": nothing but white space or comments");
+  if (!builder.complete()) throw source.error(0, 0, "nothing but white space or comments");
   if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());
   document.root_ = builder.take_root();
   return document;

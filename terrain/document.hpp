@@ -2,15 +2,20 @@
 // say what is wrong with file, line and column. All the traps of the parser are dealt with here, once:
 // trailing content, several documents, duplicate keys, aliases, tags, depth, size, unclosed quotes, directories,
 // byte-order mark, control characters. What is read is UTF-8; numbers do not depend on the locale.
+// A loader throws at the first fault. With a FaultList the same loader goes on after each and all of them are kept:
+// whatever stands on its own is read under Node::attempt.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -25,8 +30,27 @@ constexpr std::size_t max_file_size = std::size_t{512} << 20;      // [bytes]
 /// Bad input: one line "file:line:column: message" (no prefix, no line feed).
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string& message, std::size_t line_ = 0, std::size_t column_ = 0)
+      : std::runtime_error(message), line(line_), column(column_) {}
+  std::size_t line, column;  ///< from 1; 0 where no place in a text is to blame
 };
+
+/// The faults of one document that is read on after the first.
+class FaultList {
+ public:
+  static constexpr std::size_t most_kept = 100;  ///< further ones are only counted
+  void add(const InputError& fault);
+  std::size_t count() const { return count_; }
+  bool full() const { return count_ >= most_kept; }
+  std::vector<InputError> kept() const;  ///< in the order of the text
+
+ private:
+  std::vector<InputError> kept_;
+  std::size_t count_ = 0;
+};
+
+/// Thrown instead of InputError where only the consequence of a fault that a FaultList holds already could be said.
+struct AlreadyTold {};
 
 struct Source;  // the text that nodes point into
 
@@ -42,6 +66,16 @@ class Node {
   Kind kind() const { return static_cast<Kind>(content_.index()); }
   std::string where() const;                                 ///< "file:line:column", from 1, columns in characters
   [[noreturn]] void fail(const std::string& message) const;  ///< throws InputError at this node
+
+  /// Reads something that stands on its own. Without a FaultList no more than read(); with one, an InputError is kept
+  /// there and the result is empty (false where read returns nothing).
+  template <class Read>
+  auto attempt(const Read& read) const;
+  /// Attempts every one of several reads, then throws AlreadyTold if any failed.
+  template <class... Reads>
+  void attempt_each(const Reads&... reads) const;
+  /// The document's list, or nullptr.
+  FaultList* faults() const;
 
   // Scalars. Each throws InputError saying what was found and what is expected. A quoted scalar is a text, no number.
   double number(std::string_view what) const;            ///< finite; decimal or exponent form, no leading zeros
@@ -60,9 +94,11 @@ class Node {
   // Maps. Keys are scalars and unique (checked when the file is read). `what` names the map.
   const std::vector<std::pair<Node, Node>>& entries(std::string_view what) const;
   const Node* find(std::string_view key) const;                     ///< nullptr if absent or not a map
+  /// Absent: InputError; AlreadyTold if allow_only has suggested it for a misspelt key.
   const Node& require(std::string_view key, std::string_view what) const;
-  /// Refuses every key that is not listed, and suggests the nearest one that is.
-  void allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const;
+  /// Refuses every key that is not listed, and suggests the nearest one that is. False if there is one (and faults are
+  /// kept).
+  bool allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const;
 
  private:
   friend class DocumentBuilder;
@@ -70,23 +106,51 @@ class Node {
   using Entries = std::vector<std::pair<Node, Node>>;
 
   std::string described() const;  // for messages
+  [[noreturn]] void refuse_key(const std::vector<std::string>& keys, std::string_view what) const;
   [[noreturn]] void refuse(std::string_view what, std::string_view expected) const;
   std::string_view plain_scalar(std::string_view what, std::string_view expected) const;
 
   std::variant<std::monostate, std::string_view, Items, Entries> content_;  // in the order of Kind
   const Source* source_ = nullptr;
   std::uint32_t line_ = 0;         // from 0
-  std::uint32_t column_ : 31 = 0;  // from 0, in bytes
+  std::uint32_t column_ : 30 = 0;  // from 0, in bytes
   std::uint32_t quoted_ : 1 = 0;
+  std::uint32_t told_ : 1 = 0;  // what is wrong with it is in the FaultList
 };
+
+template <class Read>
+auto Node::attempt(const Read& read) const {
+  using Result = std::invoke_result_t<Read>;
+  if constexpr (std::is_void_v<Result>) {
+    return attempt([&read] { return read(), true; }).has_value();
+  } else {
+    FaultList* list = faults();
+    if (list == nullptr) return std::optional<Result>(read());
+    try {
+      return std::optional<Result>(read());
+    } catch (const InputError& fault) {
+      list->add(fault);
+    } catch (const AlreadyTold&) {
+    }
+    return std::optional<Result>();
+  }
+}
+
+template <class... Reads>
+void Node::attempt_each(const Reads&... reads) const {
+  bool whole = true;
+  ((whole = attempt(reads) && whole), ...);
+  if (!whole) throw AlreadyTold();
+}
 
 /// A parsed file. Not copyable: nodes point into it (and stay valid when it is moved).
 class Document {
  public:
   /// Throws InputError: also for a file that is missing, a directory, unreadable, too large, empty or not text.
-  static Document read_file(const std::string& path);
-  /// `name` stands for the file in messages.
-  static Document parse(std::string_view text, std::string name);
+  static Document read_file(const std::string& path, FaultList* faults = nullptr);
+  /// `name` stands for the file in messages. With `faults` (which must outlive it), anchors, aliases, tags and duplicate
+  /// keys are kept there; what leaves no tree to read is thrown all the same (AlreadyTold if it is kept as well).
+  static Document parse(std::string_view text, std::string name, FaultList* faults = nullptr);
   const Node& root() const { return root_; }
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;
@@ -97,6 +161,9 @@ class Document {
   std::unique_ptr<Source> source_;
   Node root_;
 };
+
+/// All of an open file; `name` stands for it in messages. Throws InputError, also beyond max_file_size.
+std::string read_all(std::FILE* file, const std::string& name);
 
 /// The candidate nearest to a misspelt word, or "" if none is near (edit distance at most 2 or a third of the word,
 /// letter case aside; of equally near ones the first).

@@ -68,13 +68,40 @@ std::string shown(std::string_view text) {
   return result;
 }
 
+/// Of `keys` the one that an unknown key stands for: written without a space behind its colon, or misspelt.
+std::string meant_by(std::string_view unknown, const std::vector<std::string>& keys) {
+  const std::string_view before_colon = unknown.substr(0, unknown.find(':'));
+  if (std::find(keys.begin(), keys.end(), before_colon) != keys.end()) return std::string(before_colon);
+  return near_miss(unknown, keys);
+}
+
 std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
 }  // namespace
 
+void FaultList::add(const InputError& fault) {
+  if (!full()) kept_.push_back(fault);
+  ++count_;
+}
+
+std::vector<InputError> FaultList::kept() const {
+  std::vector<InputError> sorted = kept_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const InputError& l, const InputError& r) {
+    return std::make_pair(l.line, l.column) < std::make_pair(r.line, r.column);
+  });
+  return sorted;
+}
+
 std::string Node::where() const { return source_ ? source_->place(line_, column_) : "?"; }
 
-void Node::fail(const std::string& message) const { throw InputError(where() + ": " + message); }
+FaultList* Node::faults() const { return source_ ? source_->faults : nullptr; }
+
+void Node::fail(const std::string& message) const {
+  if (!source_) throw InputError("?: " + message);
+  if (source_->faults && told_) throw AlreadyTold();
+  if (source_->faults && source_->faults->full()) throw InputError("");  // only counted: its place costs a look at the text
+  throw source_->error(line_, column_, message);
+}
 
 std::string Node::described() const {
   switch (kind()) {
@@ -181,24 +208,34 @@ const Node* Node::find(std::string_view key) const {
 const Node& Node::require(std::string_view key, std::string_view what) const {
   entries(what);
   if (const Node* value = find(key)) return *value;
+  if (faults()) {
+    for (const auto& [name, value] : entries(what)) {
+      if (meant_by(std::get<std::string_view>(name.content_), {std::string(key)}) == key) throw AlreadyTold();
+    }
+  }
   fail(std::string(what) + ": \"" + std::string(key) + "\" is missing");
 }
 
-void Node::allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const {
+bool Node::allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const {
+  bool known = true;
   for (const auto& [name, value] : entries(what)) {
     const std::string_view key = std::get<std::string_view>(name.content_);
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    const std::string message = std::string(what) + ": unknown key \"" + shown(key) + "\"; ";
-    const std::string_view before_colon = key.substr(0, key.find(':'));
-    if (before_colon != key && std::find(keys.begin(), keys.end(), before_colon) != keys.end()) {
-      name.fail(message + "a space must follow the colon");
-    }
-    const std::string near = near_miss(key, {keys.begin(), keys.end()});
-    if (!near.empty()) name.fail(message + "did you mean \"" + near + "\"?");
-    std::string list;
-    for (const std::string_view allowed : keys) list += (list.empty() ? "" : ", ") + std::string(allowed);
-    name.fail(message + "expected one of: " + list);
+    name.attempt([&, &node = name] { node.refuse_key({keys.begin(), keys.end()}, what); });
+    known = false;
   }
+  return known;
+}
+
+void Node::refuse_key(const std::vector<std::string>& keys, std::string_view what) const {
+  const std::string_view key = std::get<std::string_view>(content_);
+  const std::string message = std::string(what) + ": unknown key \"" + shown(key) + "\"; ";
+  const std::string meant = meant_by(key, keys);
+  if (!meant.empty() && key.starts_with(meant + ':')) fail(message + "a space must follow the colon");
+  if (!meant.empty()) fail(message + "did you mean \"" + meant + "\"?");
+  std::string list;
+  for (const std::string& allowed : keys) list += (list.empty() ? "" : ", ") + allowed;
+  fail(message + "expected one of: " + list);
 }
 
 namespace {

@@ -49,7 +49,10 @@ bool is_control(std::string_view text, std::size_t i) {
 
 }  // namespace
 
-std::string Source::place(std::size_t line, std::size_t byte_column) const {
+namespace {
+
+/// The column in characters of a column in bytes.
+std::size_t character_column(std::string_view text, std::size_t line, std::size_t byte_column) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < line; ++i) {
     const std::size_t end = text.find('\n', begin);
@@ -59,7 +62,18 @@ std::string Source::place(std::size_t line, std::size_t byte_column) const {
   std::size_t column = byte_column;
   const std::size_t end = std::min(text.size(), begin + byte_column);
   for (std::size_t i = begin; i < end; ++i) column -= continues(text, i);
-  return name + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1);
+  return column;
+}
+
+}  // namespace
+
+std::string Source::place(std::size_t line, std::size_t byte_column) const {
+  return name + ":" + std::to_string(line + 1) + ":" + std::to_string(character_column(text, line, byte_column) + 1);
+}
+
+InputError Source::error(std::size_t line, std::size_t byte_column, const std::string& message) const {
+  return InputError(place(line, byte_column) + ": " + message, line + 1,
+                    character_column(text, line, byte_column) + 1);
 }
 
 void Source::fail_at(std::size_t position, const std::string& message) const {
@@ -67,7 +81,7 @@ void Source::fail_at(std::size_t position, const std::string& message) const {
   const auto line = static_cast<std::size_t>(std::count(text.begin(), at, '\n'));
   const std::size_t before = position == 0 ? std::string::npos : text.rfind('\n', position - 1);
   const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-  throw InputError(place(line, position - begin) + ": " + message);
+  throw error(line, position - begin, message);
 }
 
 void Source::check_characters() const {
@@ -95,20 +109,26 @@ void Source::check_quotes(std::size_t position) const {
   fail_at(position, std::string("this quote is never closed; expected another ") + quote);
 }
 
+std::string read_all(std::FILE* file, const std::string& name) {
+  std::string text;
+  std::array<char, 1 << 16> chunk;
+  for (std::size_t got = 0; (got = std::fread(chunk.data(), 1, chunk.size(), file)) > 0;) {
+    text.append(chunk.data(), got);
+    if (text.size() > max_file_size) {
+      throw InputError(name + ": is larger than " + std::to_string(max_file_size >> 20) + " MiB");
+    }
+  }
+  if (std::ferror(file)) throw InputError(name + ": cannot be read: " + std::generic_category().message(errno));
+  return text;
+}
+
 std::string read_text(const std::string& path) {
   const auto fail = [&path](const std::string& message) { throw InputError(path + ": " + message); };
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("is a directory; expected a file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) fail("cannot be opened: " + std::generic_category().message(errno));
-  std::string text;
-  std::array<char, 1 << 16> chunk;
-  for (std::size_t got = 0; (got = std::fread(chunk.data(), 1, chunk.size(), file.get())) > 0;) {
-    text.append(chunk.data(), got);
-    if (text.size() > max_file_size) fail("is larger than 512 MiB");
-  }
-  if (std::ferror(file.get())) fail("cannot be read: " + std::generic_category().message(errno));
-  return text;
+  return read_all(file.get(), path);
 }
 
 }  // namespace surefoot::terrain

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "terrain/document.hpp"
+
 namespace surefoot::terrain {
 
 struct Source {
@@ -13,7 +15,11 @@ struct Source {
   std::string text;               ///< without byte-order mark
   std::deque<std::string> extra;  ///< scalars that do not stand in the text as they are (escapes, folded lines)
 
-  /// "name:line:column" for a place counted from 0, its column in bytes.
+  FaultList* faults = nullptr;    ///< where faults are kept, if they are not thrown
+
+  /// The error at a place counted from 0, its column in bytes.
+  InputError error(std::size_t line, std::size_t byte_column, const std::string& message) const;
+  /// "name:line:column" of that place.
   std::string place(std::size_t line, std::size_t byte_column) const;
   [[noreturn]] void fail_at(std::size_t position, const std::string& message) const;
   /// Refuses what is not UTF-8, and control characters (the parser takes some for the end of the file).

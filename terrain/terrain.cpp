@@ -35,22 +35,28 @@ std::unique_ptr<SpatialIndex> make_index(const std::vector<Segment>& segments) {
 
 }  // namespace
 
-Terrain::Terrain(std::vector<Chain> chains) {
-  check_chains(chains);
+Terrain::Terrain(std::vector<Chain> chains)
+    : Terrain(*examine(std::move(chains), [](const TerrainFault& fault) -> bool { throw fault; })) {}
+
+std::optional<Terrain> Terrain::examine(std::vector<Chain> chains, const TerrainFaultReport& report) {
+  if (!check_chains(chains, report)) return std::nullopt;
+  Terrain terrain;
   std::size_t total = 0;
   for (const Chain& chain : chains) total += chain.surfaces.size();
-  segments_.reserve(total);
-  chain_begin_.push_back(0);
+  auto& segments = terrain.segments_;
+  segments.reserve(total);
+  terrain.chain_begin_.push_back(0);
   for (std::size_t c = 0; c < chains.size(); ++c) {
     long double s = 0;  // so that a million segments do not add their rounding errors
     for (std::size_t i = 0; i < chains[c].surfaces.size(); ++i) {
-      segments_.push_back(make_segment(chains[c], static_cast<int>(c), static_cast<int>(i), static_cast<double>(s)));
-      s += segments_.back().length;
+      segments.push_back(make_segment(chains[c], static_cast<int>(c), static_cast<int>(i), static_cast<double>(s)));
+      s += segments.back().length;
     }
-    chain_begin_.push_back(static_cast<int>(segments_.size()));
+    terrain.chain_begin_.push_back(static_cast<int>(segments.size()));
   }
-  index_ = make_index(segments_);
-  check_crossings(segments_, chains, *index_);
+  terrain.index_ = make_index(segments);
+  check_crossings(segments, chains, *terrain.index_, report);
+  return terrain;
 }
 
 Terrain::~Terrain() = default;

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace surefoot::terrain {
@@ -71,6 +74,9 @@ class TerrainFault : public std::invalid_argument {
   int other_segment;
 };
 
+/// Told of each fault; false: the rest is of no interest. It may throw.
+using TerrainFaultReport = std::function<bool(const TerrainFault&)>;
+
 class SpatialIndex;
 
 /// Immutable after construction; const member functions may be called from several threads.
@@ -81,6 +87,9 @@ class Terrain {
   /// or touch themselves or each other, but for a chain that ends where it began. The first fault in the order of the
   /// chains is named. (The scene loader reports the same faults with file, line and column.)
   explicit Terrain(std::vector<Chain> chains);
+  /// Reports those faults rather than throwing the first: of the chains one by one and, only where these have none, where
+  /// chains cross. Nothing if a chain has a fault of its own; a terrain whose chains cross answers all the same.
+  static std::optional<Terrain> examine(std::vector<Chain> chains, const TerrainFaultReport& report);
   ~Terrain();
   Terrain(Terrain&&) noexcept;
   Terrain& operator=(Terrain&&) noexcept;
@@ -126,6 +135,7 @@ class Terrain {
   Eigen::AlignedBox2d bounds() const;
 
  private:
+  Terrain() = default;
   int first_segment(int chain) const;  // throws std::out_of_range
   Foothold stand(const Segment& segment, double s, const Point& position) const;
 

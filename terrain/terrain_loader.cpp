@@ -18,25 +18,35 @@ double coordinate(const Node& node, std::string_view what) {
 
 Point load_vertex(const Node& node) {
   const auto& xy = node.items("vertex [x, y]", 2);
-  return {coordinate(xy[0], "x of a vertex"), coordinate(xy[1], "y of a vertex")};
+  Point vertex;
+  node.attempt_each([&] { vertex.x() = coordinate(xy[0], "x of a vertex"); },
+                    [&] { vertex.y() = coordinate(xy[1], "y of a vertex"); });
+  return vertex;
+}
+
+void load_override(const Node& key, const Node& value, std::vector<Surface>& surfaces, std::vector<bool>& given) {
+  const std::int64_t index = key.integer("segment index");
+  if (index < 0 || index >= static_cast<std::int64_t>(surfaces.size())) {
+    key.fail("segment index: " + std::to_string(index) + " is out of range; expected 0 to " +
+             std::to_string(surfaces.size() - 1));
+  }
+  if (given[index]) key.fail("segment index: " + std::to_string(index) + " is given twice");
+  given[index] = true;
+  value.allow_only({"friction", "foothold"}, "segment " + std::to_string(index));
+  Surface& surface = surfaces[index];
+  if (const Node* friction = value.find("friction")) {
+    friction->attempt([&] { surface.friction = friction->not_negative("friction"); });
+  }
+  if (const Node* foothold = value.find("foothold")) {
+    foothold->attempt([&] { surface.foothold = foothold->boolean("foothold"); });
+  }
 }
 
 /// The overrides of a chain whose segments all have the terrain's surface so far.
 void load_overrides(const Node& node, std::vector<Surface>& surfaces) {
   std::vector<bool> given(surfaces.size(), false);
-  for (const auto& [key, value] : node.entries("segments")) {
-    const std::int64_t index = key.integer("segment index");
-    if (index < 0 || index >= static_cast<std::int64_t>(surfaces.size())) {
-      key.fail("segment index: " + std::to_string(index) + " is out of range; expected 0 to " +
-               std::to_string(surfaces.size() - 1));
-    }
-    if (given[index]) key.fail("segment index: " + std::to_string(index) + " is given twice");
-    given[index] = true;
-    const std::string what = "segment " + std::to_string(index);
-    value.allow_only({"friction", "foothold"}, what);
-    Surface& surface = surfaces[index];
-    if (const Node* friction = value.find("friction")) surface.friction = friction->not_negative("friction");
-    if (const Node* foothold = value.find("foothold")) surface.foothold = foothold->boolean("foothold");
+  for (const auto& entry : node.entries("segments")) {
+    node.attempt([&] { load_override(entry.first, entry.second, surfaces, given); });
   }
 }
 
@@ -49,9 +59,15 @@ Chain load_chain(const Node& node, const Surface& surface) {
   }
   Chain chain;
   chain.vertices.reserve(items.size());
-  for (const Node& item : items) chain.vertices.push_back(load_vertex(item));
+  bool whole = true;
+  for (const Node& item : items) {
+    whole = item.attempt([&] { chain.vertices.push_back(load_vertex(item)); }) && whole;
+  }
   chain.surfaces.assign(items.size() - 1, surface);
-  if (const Node* overrides = node.find("segments")) load_overrides(*overrides, chain.surfaces);
+  if (const Node* overrides = node.find("segments")) {
+    overrides->attempt([&] { load_overrides(*overrides, chain.surfaces); });
+  }
+  if (!whole) throw AlreadyTold();
   return chain;
 }
 
@@ -74,16 +90,22 @@ const Node& vertex_node(const Node& chains, int chain, int vertex) {
 Terrain load_terrain(const Node& node) {
   node.allow_only({"friction", "chains"}, "terrain");
   Surface surface;
-  surface.friction = node.require("friction", "terrain").not_negative("friction");
+  node.attempt([&] { surface.friction = node.require("friction", "terrain").not_negative("friction"); });
   const Node& list = node.require("chains", "terrain");
   std::vector<Chain> chains;
-  for (const Node& item : list.items("chains")) chains.push_back(load_chain(item, surface));
-  if (chains.empty()) list.fail("chains: an empty list; expected at least one chain");
-  try {
-    return Terrain(std::move(chains));
-  } catch (const TerrainFault& fault) {
-    fail_at(list, fault);
+  std::vector<bool> unread;
+  for (const Node& item : list.items("chains")) {
+    std::optional<Chain> chain = item.attempt([&] { return load_chain(item, surface); });
+    unread.push_back(!chain);
+    chains.push_back(chain ? *std::move(chain) : Chain());
   }
+  if (chains.empty()) list.fail("chains: an empty list; expected at least one chain");
+  std::optional<Terrain> ground = Terrain::examine(std::move(chains), [&](const TerrainFault& fault) {
+    if (fault.chain < 0 || !unread[fault.chain]) list.attempt([&] { fail_at(list, fault); });
+    return !(list.faults() && list.faults()->full());
+  });
+  if (!ground) throw AlreadyTold();
+  return *std::move(ground);
 }
 
 }  // namespace surefoot::terrain

@@ -7,7 +7,7 @@
 
 namespace surefoot::terrain {
 
-/// Throws InputError.
+/// Throws InputError. Where the document keeps its faults: the terrain as far as it can be read, or AlreadyTold.
 Terrain load_terrain(const Node& node);
 
 }  // namespace surefoot::terrain

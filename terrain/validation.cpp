@@ -14,23 +14,56 @@ std::string name_of(int chain, const char* part, int index) {
   return "chain " + std::to_string(chain) + ", " + part + " " + std::to_string(index);
 }
 
-void check_vertices(const Chain& chain, int c) {
+/// Hands faults on until no more are wanted.
+class Findings {
+ public:
+  explicit Findings(const TerrainFaultReport& report) : report_(report) {}
+  void add(const std::string& message, int chain, int vertex) {
+    clean_ = false;
+    wanted_ = wanted_ && report_(TerrainFault(message, chain, vertex));
+  }
+  bool clean() const { return clean_; }
+  bool wanted() const { return wanted_; }
+
+ private:
+  const TerrainFaultReport& report_;
+  bool clean_ = true, wanted_ = true;
+};
+
+bool is_bounded(const Point& point) { return point.allFinite() && point.cwiseAbs().maxCoeff() <= greatest_coordinate; }
+
+void check_vertices(const Chain& chain, int c, Findings& findings) {
   const auto& vertices = chain.vertices;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
+  for (std::size_t i = 0; i < vertices.size() && findings.wanted(); ++i) {
     const int vertex = static_cast<int>(i);
-    for (const double x : {vertices[i].x(), vertices[i].y()}) {
-      if (std::isfinite(x) && std::abs(x) <= greatest_coordinate) continue;
-      throw TerrainFault(name_of(c, "vertex", vertex) + ": a coordinate is " +
-                             (std::isfinite(x) ? "too large; expected at most 1e100 m" : "not finite"),
-                         c, vertex);
+    if (!is_bounded(vertices[i])) {
+      findings.add(name_of(c, "vertex", vertex) + ": a coordinate is " +
+                       (vertices[i].allFinite() ? "too large; expected at most 1e100 m" : "not finite"),
+                   c, vertex);
+      continue;
     }
-    if (i == 0) continue;
+    if (i == 0 || !is_bounded(vertices[i - 1])) continue;
     const Point step = vertices[i] - vertices[i - 1];
     if (std::hypot(step.x(), step.y()) >= 1 / greatest_coordinate) continue;
-    throw TerrainFault(name_of(c, "vertex", vertex) + (vertices[i] == vertices[i - 1]
-                                                           ? " repeats the vertex before it: a segment of zero length"
-                                                           : " is less than 1e-100 m from the vertex before it"),
-                       c, vertex);
+    findings.add(name_of(c, "vertex", vertex) + (vertices[i] == vertices[i - 1]
+                                                     ? " repeats the vertex before it: a segment of zero length"
+                                                     : " is less than 1e-100 m from the vertex before it"),
+                 c, vertex);
+  }
+}
+
+void check_chain(const Chain& chain, int c, Findings& findings) {
+  const std::string name = "chain " + std::to_string(c);
+  if (chain.vertices.size() < 2) return findings.add(name + ": fewer than two vertices", c, -1);
+  if (chain.surfaces.size() != chain.vertices.size() - 1) {
+    return findings.add(name + ": expected one surface for each segment", c, -1);
+  }
+  check_vertices(chain, c, findings);
+  for (std::size_t k = 0; k < chain.surfaces.size(); ++k) {
+    const double friction = chain.surfaces[k].friction;
+    if (std::isfinite(friction) && friction >= 0) continue;
+    const int segment = static_cast<int>(k);
+    findings.add(name_of(c, "segment", segment) + ": friction is not a number >= 0", c, segment);
   }
 }
 
@@ -52,31 +85,24 @@ bool collide(const Segment& i, const Segment& j, bool closed, int last) {
 
 }  // namespace
 
-void check_chains(const std::vector<Chain>& chains) {
-  if (chains.empty()) throw TerrainFault("there is no chain; expected at least one", -1, -1);
+bool check_chains(const std::vector<Chain>& chains, const TerrainFaultReport& report) {
+  Findings findings(report);
+  if (chains.empty()) findings.add("there is no chain; expected at least one", -1, -1);
   std::size_t total = 0;
-  for (std::size_t i = 0; i < chains.size(); ++i) {
+  for (std::size_t i = 0; i < chains.size() && findings.wanted(); ++i) {
     const int c = static_cast<int>(i);
-    const Chain& chain = chains[i];
-    const std::string name = "chain " + std::to_string(c);
-    if (chain.vertices.size() < 2) throw TerrainFault(name + ": fewer than two vertices", c, -1);
-    total += chain.vertices.size();
-    if (total > std::numeric_limits<std::int32_t>::max() / 4) throw TerrainFault(name + ": too many vertices", c, -1);
-    if (chain.surfaces.size() != chain.vertices.size() - 1) {
-      throw TerrainFault(name + ": expected one surface for each segment", c, -1);
+    total += chains[i].vertices.size();
+    if (total > std::numeric_limits<std::int32_t>::max() / 4) {
+      findings.add("chain " + std::to_string(c) + ": too many vertices", c, -1);
+      break;
     }
-    check_vertices(chain, c);
-    for (std::size_t k = 0; k < chain.surfaces.size(); ++k) {
-      const double friction = chain.surfaces[k].friction;
-      if (std::isfinite(friction) && friction >= 0) continue;
-      throw TerrainFault(name_of(c, "segment", static_cast<int>(k)) + ": friction is not a number >= 0", c,
-                         static_cast<int>(k));
-    }
+    check_chain(chains[i], c, findings);
   }
+  return findings.clean();
 }
 
-void check_crossings(const std::vector<Segment>& segments, const std::vector<Chain>& chains,
-                     const SpatialIndex& index) {
+void check_crossings(const std::vector<Segment>& segments, const std::vector<Chain>& chains, const SpatialIndex& index,
+                     const TerrainFaultReport& report) {
   for (std::size_t k = 0; k < segments.size(); ++k) {
     const Segment& later = segments[k];
     const auto& vertices = chains[later.chain].vertices;
@@ -91,9 +117,10 @@ void check_crossings(const std::vector<Segment>& segments, const std::vector<Cha
               });
     if (first == static_cast<std::int32_t>(k)) continue;
     const Segment& earlier = segments[first];
-    throw TerrainFault(name_of(later.chain, "segment", later.index) + " crosses or touches " +
-                           name_of(earlier.chain, "segment", earlier.index),
-                       later.chain, later.index, earlier.chain, earlier.index);
+    const TerrainFault fault(name_of(later.chain, "segment", later.index) + " crosses or touches " +
+                                 name_of(earlier.chain, "segment", earlier.index),
+                             later.chain, later.index, earlier.chain, earlier.index);
+    if (!report(fault)) return;
   }
 }
 

@@ -8,12 +8,12 @@
 
 namespace surefoot::terrain {
 
-/// Throws TerrainFault for everything that can be told without looking at two segments at once.
-void check_chains(const std::vector<Chain>& chains);
+/// Reports everything that can be told without looking at two segments at once; true if there is nothing.
+bool check_chains(const std::vector<Chain>& chains, const TerrainFaultReport& report);
 
-/// Throws TerrainFault naming the first segment, in order, that meets an earlier one otherwise than in the vertex
-/// they share as neighbours; of several earlier ones the first.
-void check_crossings(const std::vector<Segment>& segments, const std::vector<Chain>& chains,
-                     const SpatialIndex& index);
+/// Reports, in order, every segment that meets an earlier one otherwise than in the vertex they share as neighbours; of
+/// several earlier ones the first is named.
+void check_crossings(const std::vector<Segment>& segments, const std::vector<Chain>& chains, const SpatialIndex& index,
+                     const TerrainFaultReport& report);
 
 }  // namespace surefoot::terrain

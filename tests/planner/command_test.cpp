@@ -5,31 +5,15 @@
 #include <vector>
 
 #include "program.hpp"
+#include "scene_text.hpp"
 
 using nlohmann::json;
+using surefoot::tests::with;
 using surefoot::tests::Workplace;
 
 namespace {
 
-const std::string scene = R"(surefoot: 1
-terrain:
-  friction: 0.6
-  chains:
-    - vertices: [[-1, 0], [4, 0]]
-robot: {radius_of_gyration: 0.15, reach: [0.2, 0.9], clearance: 0.1}
-disturbance: {kappa: 0.1, nu: 0.03}
-start:
-  feet: [{x: -0.3}, {x: 0.25}, {x: 0}]
-  support: [1, 2]
-goal: {com_x: [1.5, 2]}
-)";
-
-std::string with(const std::string& piece, const std::string& other) {
-  std::string text = scene;
-  const auto at = text.find(piece);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, piece.size(), other);
-}
+const std::string& scene = surefoot::tests::flat_scene;
 
 /// Neither written nor left beside.
 void check_untouched(const Workplace& place, std::ptrdiff_t files) {

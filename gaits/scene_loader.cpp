@@ -160,10 +160,10 @@ SearchDefaults read_search(const Node& node) {
 /// Throws AlreadyTold rather than return a scene of which a fault has been kept.
 Scene read_scene(const Node& root, const std::string& file) {
   root.entries("scene");
-  const auto version = root.attempt([&] { return &root.require("surefoot", "scene"); });
-  if (version) check_version(**version);  // of another version nothing else can be said
+  if (const Node* version = root.find("surefoot")) check_version(*version);  // of another one nothing else can be said
   root.allow_only({"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal", "search"},
                   "scene");
+  root.attempt([&] { root.require("surefoot", "scene"); });
   auto ground = root.attempt([&] { return terrain::load_terrain(root.require("terrain", "scene")); });
   const auto robot = root.attempt([&] { return read_robot(root.require("robot", "scene")); });
   const auto box = root.attempt([&] { return read_disturbance(root.require("disturbance", "scene")); });

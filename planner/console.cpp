@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,8 @@
 #include <ctime>
 #include <cstdlib>
 #include <cstring>
+
+#include "planner/signals.hpp"
 
 namespace surefoot::planner {
 
@@ -20,6 +23,11 @@ int write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN) {  // a pipe that its owner made non-blocking is full
+      pollfd place{descriptor, POLLOUT, 0};
+      ::poll(&place, 1, -1);
+      continue;
+    }
     if (written < 0) return errno;
     text.remove_prefix(static_cast<std::size_t>(written));
   }
@@ -34,6 +42,7 @@ void guard_standard_streams() {
     if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
       if (::open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) != descriptor) std::_Exit(2);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond the greatest size of files writing is an error as well
 }
 
 namespace {
@@ -53,8 +62,7 @@ extern "C" void ask_interruption(int signal) {
     return;
   }
   if ((now.tv_sec - first.tv_sec) * 1'000'000'000L + now.tv_nsec - first.tv_nsec < together) return;
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
+  end_by_signal(signal);
 }
 
 }  // namespace
@@ -62,12 +70,11 @@ extern "C" void ask_interruption(int signal) {
 // Where SIGINT is ignored (a job in the background of a script), it stays ignored.
 Interruption::Interruption() {
   interruption_asked = false;
-  if (std::signal(SIGINT, SIG_IGN) != SIG_IGN) std::signal(SIGINT, ask_interruption);
+  ::sigaction(SIGINT, nullptr, &before_);
+  if (before_.sa_handler != SIG_IGN) std::signal(SIGINT, ask_interruption);
 }
 
-Interruption::~Interruption() {
-  if (std::signal(SIGINT, SIG_IGN) != SIG_IGN) std::signal(SIGINT, SIG_DFL);
-}
+Interruption::~Interruption() { ::sigaction(SIGINT, &before_, nullptr); }
 
 bool Interruption::asked() const { return interruption_asked; }
 

@@ -17,6 +17,7 @@
 #include "planner/console.hpp"
 #include "planner/region_command.hpp"
 #include "planner/search.hpp"
+#include "planner/signals.hpp"
 #include "planner/simulate_command.hpp"
 #include "terrain/document.hpp"
 
@@ -218,6 +219,7 @@ int run(int count, char** words) {
 
 int main(int count, char** words) {
   guard_standard_streams();
+  end_cleanly_on_signals();
   try {
     return run(count, words);
   } catch (const ReaderGone&) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "planner/console.hpp"
+#include "planner/signals.hpp"
 
 namespace surefoot::planner {
 
@@ -67,42 +68,44 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(follo
   }
   if (!replaceable_) return;
   ::close(make_temporary());
-  ::unlink(temporary_.c_str());
-  temporary_.clear();
+  drop_temporary();
 }
 
-OutputFile::~OutputFile() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+OutputFile::~OutputFile() { drop_temporary(); }
+
+void OutputFile::drop_temporary() {
+  if (temporary_.empty()) return;
+  const SignalsHeld held;
+  ::unlink(temporary_.c_str());
+  keep_on_signal(temporary_);
+  temporary_.clear();
 }
 
 int OutputFile::make_temporary() {
   const fs::path target = target_;
   if (target.filename().empty()) fail(path_, EISDIR);
   std::string name = (target.parent_path() / (".surefoot-XXXXXX")).string();
+  const SignalsHeld held;
   const int descriptor = ::mkstemp(name.data());
   if (descriptor < 0) fail(path_, errno);
   temporary_ = name;
+  remove_on_signal(temporary_);
   if (::fchmod(descriptor, mode_) != 0) fail(path_, errno);
   return descriptor;
 }
 
 void OutputFile::stage(std::string_view text) {
-  if (!replaceable_) {
-    direct_ = text;
-    return;
-  }
-  const int fault = write_and_close(make_temporary(), text, true);
+  drop_temporary();
+  const int descriptor = replaceable_ ? make_temporary() : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+  const int fault = descriptor < 0 ? errno : write_and_close(descriptor, text, replaceable_);
   if (fault != 0) fail(path_, fault);
 }
 
 void OutputFile::commit() {
-  if (!replaceable_) {
-    const int descriptor = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-    const int fault = descriptor < 0 ? errno : write_and_close(descriptor, direct_, false);
-    if (fault != 0) fail(path_, fault);
-    return;
-  }
+  if (!replaceable_) return;
+  const SignalsHeld held;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, errno);
+  keep_on_signal(temporary_);
   temporary_.clear();
 }
 

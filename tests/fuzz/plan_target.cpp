@@ -1,0 +1,36 @@
+#include "gaits/plan_io.hpp"
+#include "gaits/verifier.hpp"
+#include "tests/fuzz/targets.hpp"
+
+namespace surefoot::fuzz {
+
+namespace {
+
+/// The ground that the plans of the corpus are made for.
+const gaits::Scene& ground() {
+  static const gaits::Scene scene = gaits::parse_scene(R"(surefoot: 1
+terrain: {friction: 0.5, chains: [{vertices: [[-1, 0], [7, 0], [7, 1]]}]}
+robot: {radius_of_gyration: 0.15, reach: [0.25, 0.9], clearance: 0.2}
+disturbance: {kappa: 0.1, nu: 0.04}
+start: {feet: [{x: -0.3}, {x: 0.25}, {x: 0}], support: [1, 2]}
+goal: {com_x: [0.4, 6]}
+)", "ground");
+  return scene;
+}
+
+}  // namespace
+
+void plan(std::string_view bytes) {
+  try {
+    const gaits::Plan read = gaits::parse_plan(bytes, "input");
+    const std::string json = gaits::to_json(read), yaml = gaits::to_yaml(read);
+    expect(gaits::to_json(gaits::parse_plan(json, "input")) == json, "a plan survives JSON");
+    expect(gaits::to_yaml(gaits::parse_plan(yaml, "input")) == yaml, "a plan survives YAML");
+    expect(gaits::to_json(gaits::parse_plan(yaml, "input")) == json, "JSON and YAML hold the same plan");
+    gaits::verify(ground(), read);
+  } catch (const terrain::InputError& fault) {
+    expect_located(fault.what());
+  }
+}
+
+}  // namespace surefoot::fuzz

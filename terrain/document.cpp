@@ -209,6 +209,19 @@ class DocumentBuilder : public YAML::EventHandler {
   YAML::Mark last_mark_;
 };
 
+namespace {
+
+/// A message of the parser without the raw byte that it may end with (of an escape, or its mark for the end of the file).
+std::string readable(std::string message) {
+  const auto raw = std::find_if(message.begin(), message.end(), [](char c) { return c < 0x20 || c > 0x7E; });
+  if (raw == message.end()) return message;
+  message.erase(raw, message.end());
+  message.erase(message.find_last_not_of(": ") + 1);
+  return message;
+}
+
+}  // namespace
+
 Document::Document() : source_(std::make_unique<Source>()) {}
 Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
@@ -238,7 +251,7 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
     if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());
     const YAML::Mark mark = error.mark.is_null() ? builder.last_mark() : error.mark;
     throw source.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column),
-                       "not valid YAML: " + error.msg);
+                       "not valid YAML: " + readable(error.msg));
   }
   if (!builder.complete()) throw source.error(0, 0, "nothing but white space or comments");
   if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());

@@ -1,5 +1,7 @@
 #include "tests/fuzz/targets.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace surefoot::fuzz {
 
 const std::vector<Target>& targets() {
@@ -16,6 +18,7 @@ void expect_located(std::string_view what) {
   constexpr std::size_t longest = 1000;  // bytes: values are shown in part
   expect(what.size() < longest, "an error is short");
   for (const char c : what) expect(static_cast<unsigned char>(c) >= 0x20 && c != 0x7F, "an error is one line of text");
+  nlohmann::json(std::string(what)).dump();  // throws where it is not UTF-8
 }
 
 }  // namespace surefoot::fuzz

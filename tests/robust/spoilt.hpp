@@ -1,6 +1,8 @@
 // Texts that are no scene, no plan and no posture, however they are read.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <random>
 #include <string>
@@ -38,7 +40,7 @@ inline std::string utf16(const std::string& text) {
 inline std::string bomb() {
   std::string text = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 9; ++i) {
-    const std::string before = "*a" + std::to_string(i - 1), name = "a" + std::to_string(i);
+    const std::string before = fmt::format("*a{}", i - 1), name = fmt::format("a{}", i);
     text += name + ": &" + name + " [" + repeated(before + ", ", 9) + before + "]\n";
   }
   return text;
@@ -62,11 +64,11 @@ inline std::vector<Spoilt> spoilt_texts() {
       {"100,000 list items in each other", repeated("- ", 100'000)},
       {"100,000 keys in each other", repeated("? ", 100'000)},
       {"100,000 quotes", repeated("'", 99'999)},
-      {"an endless text", "surefoot: \"" + repeated("x", 1 << 20)},
+      {"an endless text", std::string("surefoot: \"").append(repeated("x", 1 << 20))},
       {"a line of a megabyte", repeated("x", 1 << 20)},
       {"a key of a megabyte", repeated("x", 1 << 20) + ": 1\n"},
       {"a megabyte of line feeds", repeated("\n", 1 << 20) + "x\n"},
-      {"a megabyte of commas", "[" + repeated(",", 1 << 20)},
+      {"a megabyte of commas", std::string("[").append(repeated(",", 1 << 20))},
       {"binary rubbish", rubbish(4096, 1)},
       {"more rubbish", rubbish(100'000, 2)},
       {"an ELF header", std::string("\x7f" "ELF\x02\x01\x01\0\0\0", 10)},

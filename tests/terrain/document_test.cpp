@@ -59,6 +59,8 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"a: \"x\\\"\nb: 3\n", "f.yaml:1:4: this quote is never closed; expected another \""},
       {"a: 'it''s\n", "f.yaml:1:4: this quote is never closed; expected another '"},
       {"a: [1, 2\nb: 3\n", "f.yaml:2:2: not valid YAML: end of sequence flow not found"},
+      {"\"\\", "f.yaml:1:4: not valid YAML: unknown escape character"},
+      {"\"\\\u00e4\"", "f.yaml:1:4: not valid YAML: unknown escape character"},
       {"a: b: c\n", "f.yaml:1:5: not valid YAML: illegal map value"},
       {"a: 1\n\tb: 2\n", "f.yaml:2:1: not valid YAML: illegal tab when looking for indentation"},
       {"", "f.yaml:1:1: nothing but white space or comments"},

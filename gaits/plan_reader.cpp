@@ -107,7 +107,7 @@ Status status(const Node& node) {
     known.emplace_back(to_string(candidate));
   }
   const std::string near = terrain::near_miss(word, known);
-  node.fail("status is '" + word + "', expected solved, no_plan_found or infeasible" +
+  node.fail("status is '" + terrain::shown(word) + "', expected solved, no_plan_found or infeasible" +
             (near.empty() ? "" : " (did you mean '" + near + "'?)"));
 }
 

@@ -16,7 +16,7 @@ int run_check(const std::string& scene_path, const std::string& plan_path) {
   const gaits::Plan plan = plan_path == "-" ? gaits::parse_plan(read_stdin(), "<stdin>") : gaits::read_plan(plan_path);
   if (plan.status != gaits::Status::solved) {
     write_stdout(fmt::format("no plan to check: status {}{}{}\n", gaits::to_string(plan.status),
-                             plan.reason.empty() ? "" : ": ", plan.reason));
+                             plan.reason.empty() ? "" : ": ", one_line(plan.reason)));
     return exit_failure;
   }
   const gaits::Verification verification = gaits::verify(scene, plan);

@@ -41,10 +41,7 @@ struct Question {
 };
 
 std::string shown(const json& value) {
-  constexpr std::size_t most = 40;  // characters: enough to recognise the value by
-  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (text.size() > most) text = text.substr(0, most) + "...";
-  return text;
+  return terrain::shown(value.dump(-1, ' ', true, json::error_handler_t::replace));
 }
 
 [[noreturn]] void refuse(const std::string& place, const json& value, const char* expected) {
@@ -64,7 +61,7 @@ json parse(std::string_view line) {
     if (event == Event::key) {
       const auto& key = parsed.get_ref<const std::string&>();
       if (std::find(keys.back().begin(), keys.back().end(), key) != keys.back().end())
-        throw BadLine(fmt::format("key \"{}\" is given twice", key));
+        throw BadLine(fmt::format("key \"{}\" is given twice", terrain::shown(key)));
       keys.back().push_back(key);
     }
     return true;
@@ -76,7 +73,8 @@ json parse(std::string_view line) {
     std::string message = fault.what();
     if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
     if (const auto column = message.find("column "); column != std::string::npos) message.erase(0, column);
-    throw BadLine("not JSON: " + message);
+    constexpr std::size_t most = 120;  // characters: the parser quotes what it read
+    throw BadLine("not JSON: " + terrain::shown(message, most));
   }
 }
 
@@ -84,7 +82,7 @@ void allow_only(const json& object, const std::string& place, const std::vector<
   for (const auto& [key, value] : object.items()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const std::string meant = terrain::near_miss(key, keys);
-    throw BadLine(fmt::format("{}unknown key \"{}\"{}", place.empty() ? "" : place + ": ", key,
+    throw BadLine(fmt::format("{}unknown key \"{}\"{}", place.empty() ? "" : place + ": ", terrain::shown(key),
                               meant.empty() ? "" : fmt::format(", did you mean \"{}\"?", meant)));
   }
 }

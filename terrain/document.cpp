@@ -49,7 +49,7 @@ class DocumentBuilder : public YAML::EventHandler {
     pool_.push_back(std::move(node));
   }
   void OnAnchor(const YAML::Mark& mark, const std::string& name) override {
-    tell(mark, "anchors (&" + name + ") are not accepted");
+    tell(mark, "anchors (&" + shown(name) + ") are not accepted");
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
@@ -132,7 +132,7 @@ class DocumentBuilder : public YAML::EventHandler {
     const auto at = static_cast<std::size_t>(mark.pos);
     const bool written = at < source_.text.size() && source_.text[at] == '!';
     if (!written && (tag.empty() || tag == "?" || tag == "!")) return true;
-    tell(mark, "tags (" + tag + ") are not accepted");
+    tell(mark, "tags (" + shown(tag) + ") are not accepted");
     return false;
   }
 
@@ -185,7 +185,7 @@ class DocumentBuilder : public YAML::EventHandler {
     for (const auto& [later, first] : again) {
       const Node& node = entries[later].first;
       node.attempt([&, at = later, line = entries[first].first.line_ + 1] {
-        node.fail("key \"" + std::string(key(at)) + "\" is given twice; first at line " + std::to_string(line));
+        node.fail("key \"" + shown(key(at)) + "\" is given twice; first at line " + std::to_string(line));
       });
     }
     if (again.empty()) return;

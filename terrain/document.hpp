@@ -165,6 +165,9 @@ class Document {
 /// All of an open file; `name` stands for it in messages. Throws InputError, also beyond max_file_size.
 std::string read_all(std::FILE* file, const std::string& name);
 
+/// A value for a message: on one line and of at most so many characters, whatever it holds.
+std::string shown(std::string_view text, std::size_t most = 40);
+
 /// The candidate nearest to a misspelt word, or "" if none is near (edit distance at most 2 or a third of the word,
 /// letter case aside; of equally near ones the first).
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates);

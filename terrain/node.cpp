@@ -11,7 +11,6 @@
 namespace surefoot::terrain {
 namespace {
 
-constexpr std::size_t longest_shown = 40;  // characters of a bad value in a message
 constexpr std::size_t longest_word = 64;   // longer ones have no near misses worth naming
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -56,18 +55,6 @@ std::errc convert(std::string_view text, Number& value) {
   return std::from_chars(text.data(), text.data() + text.size(), value).ec;
 }
 
-/// On one line and of bounded length, whatever the value holds.
-std::string shown(std::string_view text) {
-  std::string result;
-  std::size_t characters = 0;
-  for (const char c : text) {
-    const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-    if (begins && ++characters > longest_shown) return result + "...";
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
-  }
-  return result;
-}
-
 /// Of `keys` the one that an unknown key stands for: written without a space behind its colon, or misspelt.
 std::string meant_by(std::string_view unknown, const std::vector<std::string>& keys) {
   const std::string_view before_colon = unknown.substr(0, unknown.find(':'));
@@ -78,6 +65,17 @@ std::string meant_by(std::string_view unknown, const std::vector<std::string>& k
 std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
 }  // namespace
+
+std::string shown(std::string_view text, std::size_t most) {
+  std::string result;
+  std::size_t characters = 0;
+  for (const char c : text) {
+    const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+    if (begins && ++characters > most) return result + "...";
+    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+  }
+  return result;
+}
 
 void FaultList::add(const InputError& fault) {
   if (!full()) kept_.push_back(fault);

@@ -11,7 +11,7 @@ namespace {
 double coordinate(const Node& node, std::string_view what) {
   const double value = node.number(what);
   if (std::abs(value) > greatest_coordinate) {
-    node.fail(std::string(what) + ": " + node.text(what) + " is too large; expected at most 1e100 in magnitude");
+    node.fail(std::string(what) + ": " + shown(node.text(what)) + " is too large; expected at most 1e100 in magnitude");
   }
   return value;
 }

@@ -131,7 +131,7 @@ TEST_CASE("Colour and progress go to able terminals only, and progress keeps to 
   CHECK(std::regex_search(coloured, colour));
   std::ptrdiff_t lines = 0;
   for (std::sregex_iterator at(coloured.begin(), coloured.end(), wipe), end; at != end; ++at, ++lines)
-    if (!at->str(1).starts_with("rubble: solved")) CHECK(at->str(1).size() <= 29);
+    if (at->str(1).find("solved") == std::string::npos) CHECK(at->str(1).size() <= 29);
   CHECK(lines >= 2);  // shown at least once, and wiped
   CHECK_FALSE(std::regex_search(on_terminal(place, "TERM=xterm NO_COLOR=1", "plan flat --effort 0"), colour));
   for (const char* words : {"plan rubble --effort 0.5 -q", "plan rubble --effort 0.5 -q 2>/dev/null"})

@@ -19,6 +19,10 @@ quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" && echo "FAILED: $*" && 
 quietly cmake --install "$build" --prefix "$prefix"
 grep -rIl -e "$source" -e "$build" "$prefix" && fail "these installed files name the source or build tree"
 
+for file in bin/surefoot share/man/man1/surefoot.1 share/bash-completion/completions/surefoot share/surefoot/maps/flat.yaml; do
+  [[ -s $prefix/$file ]] || fail "$file is not installed"
+done
+
 # The tree that was installed from must not be needed, nor what the libraries were built with but do not show.
 quietly cmake -S "$source/docs/examples" -B "$work/build" -G Ninja -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$prefix" \
   -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"

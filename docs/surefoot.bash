@@ -8,13 +8,13 @@ _surefoot() {
   ((COMP_CWORD > 1)) || command=--help
   help=$("$program" "$command" --help 2>/dev/null)
   if [[ $word == -* ]]; then
-    COMPREPLY=($(compgen -W "$(awk '/^  -/ { n = split($1, names, ","); for (i = 1; i <= n; ++i) print names[i] }' \
-      <<<"$help")" -- "$word"))
+    mapfile -t COMPREPLY < <(compgen -W "$(awk '/^  -/ { n = split($1, names, ","); for (i = 1; i <= n; ++i) print names[i] }' \
+      <<<"$help")" -- "$word")
     return
   fi
   if ((COMP_CWORD == 1)); then
-    COMPREPLY=($(compgen -W "$(awk '/^Subcommands:/ { inside = 1; next } /^$/ { inside = 0 }
-      inside && /^  [^ ]/ { print $1 }' <<<"$help")" -- "$word"))
+    mapfile -t COMPREPLY < <(compgen -W "$(awk '/^Subcommands:/ { inside = 1; next } /^$/ { inside = 0 }
+      inside && /^  [^ ]/ { print $1 }' <<<"$help")" -- "$word")
     return
   fi
   # An option that takes a value says in its help which: a FILE, a NAME out of a list, or something else.
@@ -25,11 +25,11 @@ _surefoot() {
     case $entry in
       *" FILE "*)
         compopt -o filenames 2>/dev/null
-        COMPREPLY=($(compgen -f -- "$word"))
+        mapfile -t COMPREPLY < <(compgen -f -- "$word")
         return
         ;;
       *" NAME "*)
-        COMPREPLY=($(compgen -W "$(sed -E 's/^.* NAME +//; s/ *\(.*//; s/(,| or) +/\n/g' <<<"$entry")" -- "$word"))
+        mapfile -t COMPREPLY < <(compgen -W "$(sed -E 's/^.* NAME +//; s/ *\(.*//; s/(,| or) +/\n/g' <<<"$entry")" -- "$word")
         return
         ;;
     esac
@@ -37,9 +37,9 @@ _surefoot() {
     [[ $entry =~ ^\ \ -[^\ ]*\ [A-Z] && ! $entry =~ Excludes: ]] && return
   fi
   compopt -o filenames 2>/dev/null
-  COMPREPLY=($(compgen -f -- "$word"))
+  mapfile -t COMPREPLY < <(compgen -f -- "$word")
   if [[ $help == *$'\n  SCENE '* ]]; then
-    COMPREPLY+=($(compgen -W "$("$program" maps 2>/dev/null | awk '{ print $1 }')" -- "$word"))
+    mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -W "$("$program" maps 2>/dev/null | awk '{ print $1 }')" -- "$word")
   fi
 }
 complete -F _surefoot surefoot ./surefoot

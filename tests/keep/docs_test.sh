@@ -6,6 +6,7 @@
 #   the block after "<!-- begin: output of COMMAND"            is what COMMAND prints, apart from the time it took
 #   ```python                                                  runs, where python3 is there
 #   ```cpp and ```cmake                                        consist of lines of docs/examples
+#   the rows of papers.md                                      name functions and tests that are there
 # Usage: docs_test.sh SOURCE_DIR PROGRAM
 set -uo pipefail
 
@@ -99,6 +100,17 @@ for block in "$work"/blocks/*; do
       ;;
   esac
 done
+# docs/papers.md: each row's function and test are where it says.
+rows=0
+while IFS='|' read -r _ statement function file test test_file _; do
+  read -r file <<<"$file" && read -r test <<<"$test" && read -r test_file <<<"$test_file"
+  function=${function//[\` ]/}
+  grep -qE "^[^/]*\b$function\(" "$source/$file" || fail "papers.md:$statement: no $function in $file"
+  grep -E -A1 'TEST_CASE\(' "$source/$test_file" | tr -d '\n' | grep -qF -- "$test" || fail "papers.md: no test \"$test\" in $test_file"
+  rows=$((rows + 1))
+done < <(grep '^| .*`' "$source/docs/papers.md")
+((rows >= 20)) || fail "the rows of papers.md were not found"
+
 echo "$ran commands of the documents ran"
 ((ran >= 10)) || fail "the documents' commands were not found"
 exit $((failures != 0))

@@ -33,11 +33,13 @@ int run_plan(const PlanArguments& arguments);
 int run_check(const std::string& scene, const std::string& plan);
 /// Lines of `file`, "-" for stdin. With `stats`, stderr tells how the answers were decided.
 int run_query(const std::string& file, bool stats);
+/// Lists the canned scenes (canned_scenes.hpp).
+int run_maps();
 
 /// One line for each scene that is in order, one line for each fault of the others (FaultList::most_kept at most).
 int run_validate(const std::vector<std::string>& scenes);
 
-/// Loads a scene, "-" from stdin. For a file that does not exist the error names what may have been meant.
+/// Loads a scene: a file, the name of a canned one (canned_scenes.hpp), "-" for stdin.
 gaits::Scene open_scene(const std::string& path);
 /// The same with all faults in the list: nothing if there is any.
 std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults);

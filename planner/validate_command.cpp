@@ -21,8 +21,11 @@ std::string ground_summary(const terrain::Terrain& ground) {
     least = std::min(least, segment.surface.friction);
     greatest = std::max(greatest, segment.surface.friction);
   }
-  const auto counted = [](std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-  return fmt::format("{}, {}, {:.6g} m, friction {}{}", counted(static_cast<std::size_t>(ground.chain_count()), "chain"),
+  const auto counted = [](std::size_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  return fmt::format("{}, {}, {:.6g} m, friction {}{}",
+                     counted(static_cast<std::size_t>(ground.chain_count()), "chain"),
                      counted(ground.segments().size(), "segment"), length, least,
                      least < greatest ? fmt::format(" to {}", greatest) : "");
 }

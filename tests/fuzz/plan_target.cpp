@@ -14,7 +14,8 @@ robot: {radius_of_gyration: 0.15, reach: [0.25, 0.9], clearance: 0.2}
 disturbance: {kappa: 0.1, nu: 0.04}
 start: {feet: [{x: -0.3}, {x: 0.25}, {x: 0}], support: [1, 2]}
 goal: {com_x: [0.4, 6]}
-)", "ground");
+)",
+                                                       "ground");
   return scene;
 }
 

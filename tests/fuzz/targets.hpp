@@ -1,5 +1,6 @@
 // What is fuzzed: readers of everything that comes from outside. Each target takes any bytes and returns; it throws
-// Broken where a promise does not hold, and anything else that escapes (exceptions, crashes, hangs, leaks) is a defect too.
+// Broken where a promise does not hold, and anything else that escapes (exceptions, crashes, hangs, leaks) is a defect
+// too.
 #pragma once
 
 #include <stdexcept>

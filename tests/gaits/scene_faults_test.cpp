@@ -66,10 +66,12 @@ const std::vector<Fault> independent{
     {"support: [1, 2]", "support: [1, 3]", {"20:16: support: leg 3 starts in the air; expected a leg with a foot"}},
     {"com_x: [1.5, 2]",
      "com_x: [2, 1.5], com_x: [1, 2]",
-     {"21:15: com_x: [2, 1.5] is empty; expected the least first", "21:25: key \"com_x\" is given twice; first at line 21"}},
+     {"21:15: com_x: [2, 1.5] is empty; expected the least first",
+      "21:25: key \"com_x\" is given twice; first at line 21"}},
     {"{seed: 1}",
      "{seed: 0, planner: RTT}",
-     {"22:16: seed: 0 is out of range; expected 1 to 2147483562", "22:28: planner: \"RTT\" is not known; did you mean \"RRT\"?"}},
+     {"22:16: seed: 0 is out of range; expected 1 to 2147483562",
+      "22:28: planner: \"RTT\" is not known; did you mean \"RRT\"?"}},
 };
 
 std::string edited(std::string text, const Fault& fault) {
@@ -140,8 +142,8 @@ TEST_CASE("Every fault alone, every two and all together are told, each once", "
 }
 
 TEST_CASE("Faults of the ground are all told, and say nothing of the feet", "[faults]") {
-  const std::string bad = edited(
-      sound, {"[[-1, 0], [4, 0], [4, 1], [6, 1]]", "[[-1, 0], [4, 0], [4, 0], [6, 1], [6, 1]]", {}});
+  const std::string bad =
+      edited(sound, {"[[-1, 0], [4, 0], [4, 1], [6, 1]]", "[[-1, 0], [4, 0], [4, 0], [6, 1], [6, 1]]", {}});
   CHECK(told_of(edited(bad, {"{x: -0.3, chain: 0}", "{x: -99}", {}})) ==
         in_file({"6:35: chain 0, vertex 2 repeats the vertex before it: a segment of zero length",
                  "6:51: chain 0, vertex 4 repeats the vertex before it: a segment of zero length"}));

@@ -26,7 +26,7 @@ fail() {
 }
 
 # Building and installing (tests/regression/launcher_test.sh and tests/install/outside_test.sh do that).
-not_run='^(git clone |\./surefoot test |cmake |build/release/bin/surefoot )'
+not_run='^(git clone |\./surefoot test |cmake |build/release/bin/surefoot |build/fuzz/bin/)'
 
 # Minutes of random pushes are cut to seconds.
 shortened() { sed -E 's/--sample [0-9]+/--sample 20/' "$1"; }

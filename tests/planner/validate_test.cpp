@@ -1,14 +1,14 @@
 // `surefoot validate` as a user runs it.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <string>
 
 #include "program.hpp"
 #include "scene_text.hpp"
 
 using surefoot::tests::flat_scene;
-using surefoot::tests::Workplace;
 using surefoot::tests::with;
+using surefoot::tests::Workplace;
 
 TEST_CASE("A scene in order is summed up on one line, status 0", "[validate]") {
   const Workplace place;

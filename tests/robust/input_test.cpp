@@ -1,8 +1,8 @@
 // Whatever comes in: one clear line, status 2, nothing on standard output, no file made. And what only looks strange is
 // read as it is meant.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -72,15 +72,17 @@ TEST_CASE("Line ends of any system, a byte-order mark and UTF-8 change no plan",
 TEST_CASE("Where the decimal point is a comma, the same bytes are read and written", "[robust]") {
   const Workplace place;
   // A locale of our own making: the machine need not have it.
-  const auto made = place.shell("localedef -i de_DE -f UTF-8 ./de_DE.UTF-8 2>/dev/null && "
-                                "LOCPATH=$PWD LC_ALL=de_DE.UTF-8 locale decimal_point");
+  const auto made = place.shell(
+      "localedef -i de_DE -f UTF-8 ./de_DE.UTF-8 2>/dev/null && "
+      "LOCPATH=$PWD LC_ALL=de_DE.UTF-8 locale decimal_point");
   if (made.status != 0 || made.out != ",\n") {
     WARN("skipped: localedef cannot make the locale de_DE.UTF-8 here");
     return;
   }
   place.write("scene.yaml", flat_scene);
   const std::string query = R"({"contacts": [{"p": [0.5,0], "n": [0,1], "mu": 0.5}], "com": [0.5,0.4], "rho": 0.2, )"
-                            R"("kappa": 0.17, "nu": 0.1})" "\n";
+                            R"("kappa": 0.17, "nu": 0.1})"
+                            "\n";
   const auto run = [&](const std::string& locale, const std::string& arguments, const std::string& input) {
     return place.shell("LOCPATH=$PWD LC_ALL=" + locale + " '" SUREFOOT_BINARY "' " + arguments, input);
   };
@@ -101,8 +103,9 @@ TEST_CASE("Where the decimal point is a comma, the same bytes are read and writt
 }
 
 TEST_CASE("Every line of a query is answered by one line, however bad", "[robust]") {
-  const std::string good = R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}, {"p": [1,0], "n": [0,1], "mu": 0.5}], )"
-                           R"("com": [0.5,0.4], "rho": 0.2, "kappa": 0.17, "nu": 0.1})";
+  const std::string good =
+      R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}, {"p": [1,0], "n": [0,1], "mu": 0.5}], )"
+      R"("com": [0.5,0.4], "rho": 0.2, "kappa": 0.17, "nu": 0.1})";
   const auto with_number = [&good](const std::string& number) { return with("0.17", number, good); };
   std::vector<std::string> bad{repeated("[", 100'000),
                                repeated("{\"a\":", 100'000),

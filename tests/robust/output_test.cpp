@@ -17,18 +17,25 @@ const std::string posture = R"({"contacts": [{"p": [-0.5, 0.15], "n": [0.4, 1], 
  "com": [0, 0.18], "rho": 0.15, "restitution": 0.1, "heights": [1e-3, 2e-3, 0]})";
 
 /// Commands that write to standard output.
-const std::vector<std::string> writers{"plan scene.yaml --effort 0", "plan scene.yaml --effort 0 --format json",
-                                       "check scene.yaml plan.json", "validate scene.yaml",
-                                       "region scene.yaml", "region scene.yaml --svg -",
-                                       "simulate posture.json", "simulate posture.json --json -",
-                                       "query query.json", "--help", "--version"};
+const std::vector<std::string> writers{"plan scene.yaml --effort 0",
+                                       "plan scene.yaml --effort 0 --format json",
+                                       "check scene.yaml plan.json",
+                                       "validate scene.yaml",
+                                       "region scene.yaml",
+                                       "region scene.yaml --svg -",
+                                       "simulate posture.json",
+                                       "simulate posture.json --json -",
+                                       "query query.json",
+                                       "--help",
+                                       "--version"};
 
 /// All that the writers read.
 void prepare(const Workplace& place) {
   place.write("scene.yaml", flat_scene);
   place.write("posture.json", posture);
   place.write("query.json", R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}], "com": [0,0.4], "rho": 0.2, )"
-                            R"("kappa": 0, "nu": 0})" "\n");
+                            R"("kappa": 0, "nu": 0})"
+                            "\n");
   REQUIRE(place.run("plan scene.yaml -q --effort 0 -o plan.json").status == 0);
 }
 

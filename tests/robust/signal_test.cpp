@@ -1,5 +1,5 @@
-// SIGINT, SIGTERM and SIGHUP at any moment: the program ends by that signal with one line, or in order; files are whole or
-// untouched, and none is left beside them.
+// SIGINT, SIGTERM and SIGHUP at any moment: the program ends by that signal with one line, or in order; files are whole
+// or untouched, and none is left beside them.
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -36,11 +36,12 @@ void prepare(const Workplace& place) {
 }
 
 std::vector<std::string> plan_words(const Workplace& place, const std::string& effort) {
-  return {SUREFOOT_BINARY, "plan", place / "scene.yaml", "-q", "--effort", effort,
-          "-o", place / "plan.json", "--svg", place / "plan.svg"};
+  return {SUREFOOT_BINARY, "plan", place / "scene.yaml", "-q",    "--effort",
+          effort,          "-o",   place / "plan.json",  "--svg", place / "plan.svg"};
 }
 
-/// The program with a shim that raises a signal at one call. Signals are not ignored, whatever the tests were started by.
+/// The program with a shim that raises a signal at one call. Signals are not ignored, whatever the tests were started
+/// by.
 Workplace::Outcome run_with_shim(const Workplace& place, const std::string& order) {
   std::vector<std::string> words{"--default-signal=INT,TERM,HUP", "LD_PRELOAD=" SUREFOOT_SIGNAL_SHIM,
                                  "ASAN_OPTIONS=verify_asan_link_order=0", "SUREFOOT_SIGNAL=" + order};
@@ -56,7 +57,8 @@ TEST_CASE("A signal at any step of writing leaves no part of a file", "[robust]"
     int calls;  // with two outputs: each is tried for, then staged, then put in place
   };
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    for (const Step& step : {Step{"mkstemp", 4}, Step{"fchmod", 4}, Step{"fsync", 2}, Step{"unlink", 2}, Step{"rename", 2}})
+    for (const Step& step :
+         {Step{"mkstemp", 4}, Step{"fchmod", 4}, Step{"fsync", 2}, Step{"unlink", 2}, Step{"rename", 2}})
       for (int call = 1; call <= step.calls; ++call)
         for (const char* moment : {"before", "after"}) {
           const Workplace place;

@@ -71,7 +71,9 @@ inline std::vector<Spoilt> spoilt_texts() {
       {"a megabyte of commas", std::string("[").append(repeated(",", 1 << 20))},
       {"binary rubbish", rubbish(4096, 1)},
       {"more rubbish", rubbish(100'000, 2)},
-      {"an ELF header", std::string("\x7f" "ELF\x02\x01\x01\0\0\0", 10)},
+      {"an ELF header", std::string("\x7f"
+                                    "ELF\x02\x01\x01\0\0\0",
+                                    10)},
       {"NUL", std::string("surefoot: 1\0\n", 13)},
       {"UTF-16", utf16(flat_scene)},
       {"Latin-1", "surefoot: 1\nname: M\xFCller\n"},

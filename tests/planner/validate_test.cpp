@@ -33,7 +33,7 @@ TEST_CASE("All faults of all scenes are listed by place, status 2", "[validate]"
         "bad.yaml:3:13: friction: -1 is negative; expected a number >= 0\n"
         "bad.yaml:11:8: goal: unknown key \"com_z\"; did you mean \"com_x\"?\n"
         "good.yaml: valid: good, 1 chain, 1 segment, 5 m, friction 0.6, start stands\n"
-        "missing.yaml: cannot be opened: No such file or directory\n");
+        "missing.yaml: no such file or canned scene (surefoot maps lists those)\n");
 }
 
 TEST_CASE("What plan refuses before it searches, validate refuses too", "[validate]") {

@@ -142,7 +142,7 @@ class DocumentBuilder : public YAML::EventHandler {
     if (position <= text.size() && text.substr(position, value.size()) == value) {
       return text.substr(position, value.size());
     }
-    return source_.extra.emplace_back(value);
+    return source_.extra.emplace_back(well_formed(value));
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, bool map) {

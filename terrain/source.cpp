@@ -109,6 +109,17 @@ void Source::check_quotes(std::size_t position) const {
   fail_at(position, std::string("this quote is never closed; expected another ") + quote);
 }
 
+std::string well_formed(std::string_view value) {
+  std::string result;
+  for (std::size_t i = 0; i < value.size();) {
+    const std::size_t length = sequence_length(value, i);
+    if (length == 0) result += '\xC2';  // leads both characters, whose second byte is the one that is there
+    result += value.substr(i, std::max<std::size_t>(length, 1));
+    i += std::max<std::size_t>(length, 1);
+  }
+  return result;
+}
+
 std::string read_all(std::FILE* file, const std::string& name) {
   std::string text;
   std::array<char, 1 << 16> chunk;

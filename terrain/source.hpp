@@ -28,6 +28,10 @@ struct Source {
   void check_quotes(std::size_t position) const;
 };
 
+/// The parser turns the escapes "\_" and "\N" into single bytes; here they become the characters that they stand for
+/// (U+00A0, U+0085), as UTF-8.
+std::string well_formed(std::string_view value);
+
 /// The whole file. Throws InputError.
 std::string read_text(const std::string& path);
 

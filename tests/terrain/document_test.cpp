@@ -34,6 +34,14 @@ struct Refusal {
   std::string text, message;
 };
 
+TEST_CASE("escapes stand for characters, always as UTF-8", "[document]") {
+  // YAML 1.2, 5.7: \_ is U+00A0, \N is U+0085, \L is U+2028, \P is U+2029.
+  const Document document = parse(R"(["a\_b", "\N", "\L\P", "\xe4\u20ac\U0001f600", "\_\_\N"])");
+  const std::vector<std::string> expected{"a\u00a0b", "\xC2\x85", "\u2028\u2029", "\u00e4\u20ac\U0001f600",
+                                          "\u00a0\u00a0\xC2\x85"};
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(document.root().items("list")[i].text("text") == expected[i]);
+}
+
 TEST_CASE("traps of the parser are refused with their place", "[document]") {
   const std::vector<Refusal> refusals{
       {"- {x: 0}\nfriction: 0.5\n",

@@ -15,7 +15,6 @@ namespace surefoot::gaits {
 namespace {
 
 using terrain::Node;
-using terrain::Terrain;
 
 constexpr std::int64_t format_version = 1;
 

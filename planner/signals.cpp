@@ -29,8 +29,17 @@ struct Slot {
 std::array<Slot, 8> slots;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-const char* name_of(int signal) {
-  return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "a signal";
+std::string_view last_line(int signal) {
+  switch (signal) {
+    case SIGINT:
+      return "surefoot: error: ended by SIGINT\n";
+    case SIGTERM:
+      return "surefoot: error: ended by SIGTERM\n";
+    case SIGHUP:
+      return "surefoot: error: ended by SIGHUP\n";
+    default:
+      return "surefoot: error: ended by a signal\n";
+  }
 }
 
 void say(std::string_view text) {
@@ -46,10 +55,7 @@ extern "C" void end_by_signal(int signal) {
   for (const Slot& slot : slots)
     if (slot.used) ::unlink(slot.path);
   if (::isatty(STDERR_FILENO)) say("\r\x1b[K");  // wipes a line of progress
-  char line[64] = "surefoot: error: ended by ";
-  std::strcat(line, name_of(signal));
-  std::strcat(line, "\n");
-  say(line);
+  say(last_line(signal));
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }

@@ -135,9 +135,8 @@ Foothold read_foot_by_x(const Node& node, const Terrain& ground) {
     x_node.fail(
         fmt::format("x: there is no foothold at {}; expected a point inside a segment where a foot may stand", x));
   std::vector<std::string> list;
-  for (const Foothold& foothold : found) {
-    list.push_back(fmt::format("{{chain: {}, s: {}}}", foothold.chain, foothold.s));
-  }
+  list.reserve(found.size());
+  for (const Foothold& foothold : found) list.push_back(fmt::format("{{chain: {}, s: {}}}", foothold.chain, foothold.s));
   x_node.fail(fmt::format("x: {} is ambiguous; expected one of: {}", x, fmt::join(list, ", ")));
 }
 

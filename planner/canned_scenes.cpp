@@ -84,7 +84,7 @@ std::string scene_file(const std::string& scene) {
   const bool exists = fs::exists(scene, ignored), directory = fs::is_directory(scene, ignored);
   if (scene.empty() || scene == "-" || (exists && !directory)) return scene;
   const std::vector<CannedScene> canned = canned_scenes();
-  if (const std::string file = canned_file(canned, scene); !file.empty()) return file;
+  if (std::string file = canned_file(canned, scene); !file.empty()) return file;
   if (exists) return scene;
   const std::string meant = scene_meant(scene, canned);
   throw terrain::InputError(fmt::format("{}: no such file or canned scene{}", one_line(scene),

@@ -15,10 +15,11 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int first_panels = 32;
-constexpr int most_panels = 4000;          ///< bounds the work: 15 lines each
+constexpr int most_panels = 200;           ///< bounds the work: 30 lines for each beyond the first; usual: 40 to 80
 constexpr double narrowest_panel = 1e-13;  ///< relative to the strip: below, x has no digits left
 constexpr int drawn_lines = 240;           ///< polygons follow the boundary at so many lines at least
 constexpr double drawn_gap = 1e-5;         ///< relative to the strip: left open where a part begins or ends
+constexpr int most_drawn_lines = 2000;     ///< beyond, gaps are left as they are
 
 struct Panel {
   double from, to;
@@ -92,17 +93,19 @@ class Tracer {
 
 using Tracers = std::array<Tracer, frictional_part_count>;
 
-/// From the line before, which the tracers have taken, to `line`: halved where a part begins, ends or divides.
-void trace_to(FrictionalLines& lines, double before, const FrictionalLine& line, double gap, Tracers& tracers) {
+/// From the line before, which the tracers have taken, to `line`: halved where a part begins, ends or divides,
+/// while fewer than `last` lines were asked.
+void trace_to(FrictionalLines& lines, double before, const FrictionalLine& line, double gap, int last,
+              Tracers& tracers) {
   const auto goes_on = [&] {
     for (int k = 0; k < frictional_part_count; ++k)
       if (!tracers[k].continues(line.part[k])) return false;
     return true;
   };
-  if (!goes_on() && line.x - before > gap) {
+  if (!goes_on() && line.x - before > gap && lines.asked() < last) {
     const FrictionalLine middle = lines.at(0.5 * (before + line.x));
-    trace_to(lines, before, middle, gap, tracers);
-    return trace_to(lines, middle.x, line, gap, tracers);
+    trace_to(lines, before, middle, gap, last, tracers);
+    return trace_to(lines, middle.x, line, gap, last, tracers);
   }
   for (int k = 0; k < frictional_part_count; ++k) tracers[k].advance(line.x, line.part[k]);
 }
@@ -110,12 +113,13 @@ void trace_to(FrictionalLines& lines, double before, const FrictionalLine& line,
 std::array<std::vector<RegionPolygon>, frictional_part_count> trace(FrictionalLines& lines, double from, double to) {
   Tracers tracers;
   const double width = to - from, inset = drawn_gap * width;  // on the edges of the strip no verdict holds
+  const int last = lines.asked() + most_drawn_lines;
   FrictionalLine line = lines.at(from + inset);
   for (int k = 0; k < frictional_part_count; ++k) tracers[k].advance(line.x, line.part[k]);
   for (int i = 1; i <= drawn_lines; ++i) {
     const double before = line.x;
     line = lines.at(from + inset + (width - 2 * inset) * i / drawn_lines);
-    trace_to(lines, before, line, inset, tracers);
+    trace_to(lines, before, line, inset, last, tracers);
   }
   std::array<std::vector<RegionPolygon>, frictional_part_count> polygons;
   for (int k = 0; k < frictional_part_count; ++k) polygons[k] = tracers[k].finish();

@@ -18,11 +18,12 @@ _surefoot() {
     return
   fi
   # An option that takes a value says in its help which: a FILE, a NAME out of a list, or something else.
+  local entry=
   if [[ $before == -* ]]; then
-    local entry
     entry=$(awk -v option="$before" '/^  -/ { n = split($1, names, ",")
       for (i = 1; i <= n; ++i) if (names[i] == option) { print; exit } }' <<<"$help")
     case $entry in
+      *" SCENE "*) ;;
       *" FILE "*)
         compopt -o filenames 2>/dev/null
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
@@ -34,11 +35,11 @@ _surefoot() {
         ;;
     esac
     # Upper case behind the option: some other value, of which nothing is known here.
-    [[ $entry =~ ^\ \ -[^\ ]*\ [A-Z] && ! $entry =~ Excludes: ]] && return
+    [[ $entry =~ ^\ \ -[^\ ]*\ [A-Z] && ! $entry =~ Excludes:|\ SCENE\  ]] && return
   fi
   compopt -o filenames 2>/dev/null
   mapfile -t COMPREPLY < <(compgen -f -- "$word")
-  if [[ $help == *$'\n  SCENE '* ]]; then
+  if [[ $help == *$'\n  SCENE '* || $entry == *" SCENE "* ]]; then
     mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -W "$("$program" maps 2>/dev/null | awk '{ print $1 }')" -- "$word")
   fi
 }

@@ -84,17 +84,18 @@ std::string scene_file(const std::string& scene) {
   const bool exists = fs::exists(scene, ignored), directory = fs::is_directory(scene, ignored);
   if (scene.empty() || scene == "-" || (exists && !directory)) return scene;
   const std::vector<CannedScene> canned = canned_scenes();
-  if (const std::string file = canned_file(canned, scene); !file.empty()) return file;
+  if (std::string file = canned_file(canned, scene); !file.empty()) return file;
   if (exists) return scene;
   const std::string meant = scene_meant(scene, canned);
-  throw terrain::InputError(fmt::format("{}: no such file or canned scene{}", one_line(scene),
-                                        meant.empty() ? " (surefoot maps lists those)"
-                                                      : fmt::format(", did you mean {}?", meant)));
+  throw terrain::InputError(
+      fmt::format("{}: no such file or canned scene{}", one_line(scene),
+                  meant.empty() ? " (surefoot maps lists those)" : fmt::format(", did you mean {}?", meant)));
 }
 
 int run_maps() {
   const std::vector<CannedScene> scenes = canned_scenes();
-  if (scenes.empty()) throw terrain::InputError("no canned scenes: expected in ../share/surefoot/maps beside the program");
+  if (scenes.empty())
+    throw terrain::InputError("no canned scenes: expected in ../share/surefoot/maps beside the program");
   std::size_t width = 0;
   for (const CannedScene& scene : scenes) width = std::max(width, scene.name.size());
   std::string text;

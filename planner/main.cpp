@@ -135,7 +135,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   CLI::App* simulate = app.add_subcommand("simulate", "Hybrid dynamics of a posture after a push: collisions, slides, rest or not");
   simulate->add_option("POSTURE", a.posture, "a query line of one or two contacts (JSON), - for standard input; may have\n"
                        "restitution, gravity, q, q_rate, heights, heights_rate");
-  simulate->add_option("--scene", a.scene, "instead of a posture: two start feet of a scene (YAML)")->type_name("SCENE");
+  simulate->add_option("--scene", a.scene, "instead of a posture: two start feet of a scene file or canned scene")->type_name("SCENE");
   simulate->add_option("--stance", a.stance, "which two (default: the scene's first stance)")->type_name("LEG,LEG");
   simulate->add_option("--restitution", a.restitution, "coefficient of restitution, between 0 and 1")->type_name("E");
   simulate->add_option("--com", a.com, "COM [m]")->type_name("X,Y");

@@ -91,9 +91,10 @@ std::unique_ptr<OutputFile> open_output(const std::optional<std::string>& path, 
 
 Outputs open_outputs(const PlanArguments& arguments) {
   const std::string scene = scene_file(arguments.scene);
-  Outputs outputs{.plan = open_output(arguments.output, scene),
-                  .svg = open_output(arguments.svg, scene),
-                  .svg_to_stdout = arguments.svg == "-"};
+  Outputs outputs;
+  outputs.plan = open_output(arguments.output, scene);
+  outputs.svg = open_output(arguments.svg, scene);
+  outputs.svg_to_stdout = arguments.svg == "-";
   if (outputs.plan && outputs.svg && outputs.plan->same_as(outputs.svg->path()))
     throw terrain::InputError(fmt::format("{}: both -o and --svg would write this file", outputs.svg->path()));
   if (outputs.svg_to_stdout && !outputs.plan)

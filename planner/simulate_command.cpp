@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "gaits/motion_svg.hpp"
+#include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/figure_outputs.hpp"
@@ -149,7 +150,7 @@ SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
 int run_simulate(const SimulateArguments& arguments) {
   Subject subject = read_subject(arguments);
   SampleRequest& request = subject.request;
-  const FigureOutputs outputs(arguments.svg, arguments.json, arguments.scene ? arguments.scene : arguments.posture);
+  const FigureOutputs outputs(arguments.svg, arguments.json, arguments.scene ? scene_file(*arguments.scene) : arguments.posture);
   if (arguments.sample) {
     if (arguments.svg) throw InputError("--svg: a sample of many runs has no picture");
     if (subject.q || subject.q_rate || subject.heights || subject.heights_rate)

@@ -53,6 +53,7 @@ done
 is "planners" "$(offered plan --planner L)" Layers
 is "objectives" "$(offered plan --objective "")" $'steps\nsafety\ndistance'
 is "canned scenes and files" "$(offered plan stairs)" $'stairs_up\nstairs_down\nstairs.txt'
+is "canned scenes and files behind --scene" "$(offered simulate --scene stairs)" $'stairs_up\nstairs_down\nstairs.txt'
 is "the plan of check" "$(offered check flat "a p")" "a plan.json"
 is "files behind --svg" "$(offered plan --svg st)" stairs.txt
 is "nothing behind --seed" "$(offered plan --seed "")" ""

@@ -10,7 +10,7 @@
 # Usage: docs_test.sh SOURCE_DIR PROGRAM
 set -uo pipefail
 
-source=$1 program=$(readlink -f -- "$2")
+source=$(readlink -f -- "$1") program=$(readlink -f -- "$2")
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 mkdir "$work"/{tree,bin,blocks}

@@ -65,7 +65,8 @@ TEST_CASE("A canned scene is known by its name where no file is", "[command][can
 TEST_CASE("What is neither file nor canned scene is answered with the nearest", "[command][canned]") {
   const Workplace place;
   place.write("plan.json", "{}");
-  for (const char* command : {"plan stairs_upp", "plan maps/stairs_up.yaml", "check Stairs_up plan.json", "region stairsup"}) {
+  for (const char* command :
+       {"plan stairs_upp", "plan maps/stairs_up.yaml", "check Stairs_up plan.json", "region stairsup"}) {
     const auto run = place.run(command);
     INFO(command << "\n" << run.err);
     CHECK(run.status == 2);

@@ -5,15 +5,15 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gaits/plan_io.hpp"
 #include "gaits/verifier.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
-#include "planner/output_file.hpp"
+#include "planner/figure_outputs.hpp"
 #include "planner/refine.hpp"
 #include "planner/search.hpp"
 
@@ -74,29 +74,15 @@ std::string written(const gaits::Scene& scene, const gaits::Plan& plan, const st
   return text;
 }
 
-/// The files a plan goes to, checked before the search, filled only when there is a plan.
-struct Outputs {
-  std::unique_ptr<OutputFile> plan, svg;
-  bool svg_to_stdout = false;
-};
-
-std::unique_ptr<OutputFile> open_output(const std::optional<std::string>& path, const std::string& scene) {
-  if (!path || *path == "-") return nullptr;
-  auto file = std::make_unique<OutputFile>(*path);
-  if (scene != "-" && file->same_as(scene))
-    throw terrain::InputError(fmt::format("{}: is the scene itself and would be overwritten", *path));
-  return file;
-}
-
-Outputs open_outputs(const PlanArguments& arguments) {
-  Outputs outputs{.plan = open_output(arguments.output, arguments.scene),
-                  .svg = open_output(arguments.svg, arguments.scene),
-                  .svg_to_stdout = arguments.svg == "-"};
-  if (outputs.plan && outputs.svg && outputs.plan->same_as(outputs.svg->path()))
-    throw terrain::InputError(fmt::format("{}: both -o and --svg would write this file", outputs.svg->path()));
-  if (outputs.svg_to_stdout && !outputs.plan)
-    throw terrain::InputError("--svg -: standard output is taken by the plan; give -o a file name too");
-  return outputs;
+/// Where the plan goes, checked before the search, filled only when there is a plan.
+FigureOutputs open_outputs(const PlanArguments& arguments) {
+  const bool plan_to_stdout = arguments.output.value_or("-") == "-";
+  for (const auto& [option, path] : {std::pair("--svg", arguments.svg), std::pair("--html", arguments.html)})
+    if (plan_to_stdout && path == "-")
+      throw terrain::InputError(
+          fmt::format("{} -: standard output is taken by the plan; give -o a file name too", option));
+  return FigureOutputs(
+      {{"-o", arguments.output.value_or("-")}, {"--svg", arguments.svg}, {"--html", arguments.html}}, arguments.scene);
 }
 
 /// The refined plan where it holds, the plan as found where only that holds; `fault` where neither does.
@@ -127,29 +113,24 @@ void tell(const gaits::Plan& plan) {
   note(fmt::format("verified: {} stances, {} transfers", plan.stances.size(), plan.transfers.size()));
 }
 
-void deliver(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan, Outputs& outputs) {
-  const bool colour = !outputs.plan && stdout_takes_colour();
-  const std::string text = written(scene, plan, output_format(arguments), arguments.explain, colour);
-  const std::string drawing = arguments.svg ? gaits::to_svg(scene, plan) : std::string();
-  if (outputs.plan) outputs.plan->stage(text);
-  if (outputs.svg) outputs.svg->stage(drawing);
-  if (!outputs.plan) write_stdout(text);
-  if (outputs.svg_to_stdout) write_stdout(drawing);
-  for (OutputFile* file : {outputs.plan.get(), outputs.svg.get()})
-    if (file != nullptr) {
-      file->commit();
-      if (!arguments.quiet) note("wrote " + file->path());
-    }
+void deliver(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan,
+             FigureOutputs& outputs) {
+  const bool colour = !outputs.file("-o") && stdout_takes_colour();
+  outputs.put("-o", written(scene, plan, output_format(arguments), arguments.explain, colour));
+  if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(scene, plan));
+  if (outputs.wants("--html")) outputs.put("--html", gaits::to_html(scene, plan));
+  outputs.commit(arguments.quiet);
 }
 
 /// No plan: said where the plan would have gone, but no file is touched.
 int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan,
-                   const Outputs& outputs) {
-  if (!outputs.plan)
+                   const FigureOutputs& outputs) {
+  const OutputFile* file = outputs.file("-o");
+  if (!file)
     write_stdout(written(scene, plan, output_format(arguments), arguments.explain, stdout_takes_colour()));
   else
     note(fmt::format("{}{}{}; {} is not written", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ",
-                     plan.reason, outputs.plan->path()));
+                     plan.reason, file->path()));
   return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
 }
 
@@ -159,7 +140,7 @@ int run_plan(const PlanArguments& arguments) {
   output_format(arguments);  // says what is wrong with it before anything else is done
   const gaits::Scene scene = open_scene(arguments.scene);
   SearchOptions options = search_options(arguments, scene);
-  Outputs outputs = open_outputs(arguments);
+  FigureOutputs outputs = open_outputs(arguments);
   if (arguments.verbose)
     note(fmt::format("{}: {} segments, planner {}, seed {}, time limit {} s", scene.name,
                      scene.terrain.segments().size(), options.planner, options.seed, options.time_limit));

@@ -240,5 +240,5 @@ dark.addEventListener("change", redraw);
 window.addEventListener("hashchange", goToAddress);
 redraw();
 goToAddress();
-window.surefoot = {data, pose, seek, play, state};  // for scripts: surefoot.pose(2.5) is what is drawn then
+window.surefoot = {data, pose, seek, play, state, camera};  // for scripts: surefoot.pose(2.5) is what is drawn then
 document.documentElement.dataset.ready = "yes";

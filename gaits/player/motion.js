@@ -7,7 +7,7 @@
 // Only how long each part takes is the player's choice.
 const data = JSON.parse(document.getElementById("data").textContent);
 const plan = data.plan;
-const steps = plan.transfers.length;
+const steps = Math.max(0, Math.min(plan.transfers.length, plan.stances.length - 1));
 const [reachMin, reachMax] = data.scene.reach;
 const phases = [
   {name: "turn", end: 0.25}, {name: "place", end: 0.42}, {name: "move", end: 0.85}, {name: "lift", end: 1}];

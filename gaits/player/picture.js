@@ -70,7 +70,7 @@ function drawRegion(now) {
   pen.beginPath();
   for (const ring of region.rings) trace(ring, true);
   pen.fillStyle = pen.strokeStyle = colours.region;
-  pen.globalAlpha = 0.22; pen.fill("evenodd");
+  pen.globalAlpha = 0.26; pen.fill("evenodd");
   pen.globalAlpha = 0.9; pen.lineWidth = 2; pen.stroke();
   pen.restore();
   targets.push({region, words: () => regionWords(region)});
@@ -135,11 +135,12 @@ function drawPath(now) {
 
 /** Where feet stood and will stand. */
 function drawFootholds(now) {
+  const radius = clamp(0.07 * reachMax * camera.scale, 1, 3.4);
   const dot = (leg, foot, past, k) => {
     if (!seesPoint(place(foot))) return;
     const at = camera.px(place(foot));
     pen.globalAlpha = past ? 0.45 : 1;
-    disc(at, 3.4, past ? colours["leg" + leg] : colours.halo, colours["leg" + leg], 1.6);
+    disc(at, radius, past ? colours["leg" + leg] : colours.halo, colours["leg" + leg], 0.47 * radius);
     pen.globalAlpha = 1;
     targets.push({at, t: k + 0.42, words: () => [`leg ${leg}, ${k < 0 ? "where it stands at the start" : "placed in step " + (k + 1)}`,
       ...footWords(foot)]});
@@ -161,8 +162,8 @@ function drawCone(foot) {
 }
 
 function drawRobot(now) {
-  const hub = camera.px(now.com);
-  for (const {foot, carries} of now.legs) if (carries) drawCone(foot);
+  const hub = camera.px(now.com), roomy = reachMax * camera.scale > 40;  // px: else only legs and COM
+  for (const {foot, carries} of now.legs) if (carries && roomy) drawCone(foot);
   for (const {leg, tip: end, foot, carries} of now.legs) {
     const at = camera.px(end), colour = colours["leg" + leg];
     stroke([now.com, end], colour, carries ? 4.5 : 3, carries ? [] : [7, 4]);
@@ -170,6 +171,7 @@ function drawRobot(now) {
   }
   for (const {leg, tip: end, foot, carries} of now.legs) {
     const at = camera.px(end), colour = colours["leg" + leg];
+    if (!roomy) continue;
     if (carries) disc(at, 5, colour, colours.halo, 1.5);
     else disc(at, 4, colours.halo, colour, 2.5);
     const inward = carries && foot ? [-foot.normal[0], foot.normal[1]] : [0, 0];

@@ -17,7 +17,8 @@ FigureOutputs::FigureOutputs(const std::vector<Request>& requests, const std::op
   for (auto one = targets_.begin(); one != targets_.end(); ++one)
     for (auto other = one + 1; other != targets_.end(); ++other) {
       if (!one->file && !other->file)
-        throw InputError(fmt::format("{} - and {} -: standard output can hold one of them", one->option, other->option));
+        throw InputError(
+            fmt::format("{} - and {} -: standard output can hold one of them", one->option, other->option));
       if (one->file && other->file && one->file->same_as(other->file->path()))
         throw InputError(fmt::format("{}: both {} and {} would write this file", other->file->path(), one->option,
                                      other->option));

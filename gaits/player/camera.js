@@ -71,6 +71,21 @@ function clipped(polygon, window) {
   return polygon;
 }
 
+/** The part of a line in a window, its ends as they were where they lie inside; null if there is none (Liang and
+    Barsky). A line of a million pixels is not for a canvas. */
+function cut(a, b, window) {
+  let begin = 0, end = 1;
+  for (let side = 0; side < 4; ++side) {
+    const axis = side % 2, sign = side < 2 ? 1 : -1;
+    const at = sign * (a[axis] - window[side]), change = sign * (b[axis] - a[axis]);
+    if (change === 0 && at < 0) return null;
+    if (change > 0) begin = Math.max(begin, -at / change);
+    if (change < 0) end = Math.min(end, -at / change);
+  }
+  if (begin > end) return null;
+  return [begin > 0 ? between(a, b, begin) : a, end < 1 ? between(a, b, end) : b];
+}
+
 /** Terrain near the camera; cut anew only when the camera leaves it, so that long terrain costs nothing per frame. */
 const nearby = {
   window: null, ground: [], surface: [],
@@ -87,11 +102,12 @@ const nearby = {
       let points = [];
       const close = () => { if (points.length) this.surface.push({...run, points}); points = []; };
       for (let i = 1; i < run.points.length; ++i) {
-        const a = run.points[i - 1], b = run.points[i];
-        const inside = [0, 1].every(k => Math.max(a[k], b[k]) >= wide[k] && Math.min(a[k], b[k]) <= wide[k + 2]);
-        if (!inside) close();
-        else if (points.length) points.push(b);
-        else points.push(a, b);
+        const a = run.points[i - 1], b = run.points[i], piece = cut(a, b, wide);
+        if (!piece) continue;
+        if (piece[0] !== a) close();
+        if (!points.length) points.push(piece[0]);
+        points.push(piece[1]);
+        if (piece[1] !== b) close();
       }
       close();
     }

@@ -1,4 +1,4 @@
-// Time, keys, buttons, the pointer, the words beside the picture, and the address (#step=3, #t=2.5, &play, &view=follow).
+// Time, keys, buttons, the pointer, the words beside the picture, and the address (#step=3, #t=2.5&play&view=follow).
 const element = id => document.getElementById(id);
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
 const dark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -20,7 +20,8 @@ const back = () => seek(Math.ceil(state.t) - 1);
 function partBy(direction) {
   const marks = [0, ...phases.map(phase => phase.end)], k = Math.floor(state.t), slack = 1e-9;
   const times = [k - 1, k, k + 1].flatMap(step => marks.map(mark => step + mark));
-  const next = direction > 0 ? times.filter(t => t > state.t + slack) : times.filter(t => t < state.t - slack).reverse();
+  const next = times.filter(t => direction * (t - state.t) > slack);
+  if (direction < 0) next.reverse();
   seek(next.length ? next[0] : state.t);
 }
 
@@ -115,7 +116,7 @@ function otherSpeed(by) {
   setSpeed(options[clamp(options.indexOf(state.speed) + by, 0, options.length - 1)]);
 }
 
-const weakestTime = () => data.weakest ? data.weakest.index + (data.weakest.in_transfer ? 0.42 : 0) : 0;
+const weakestTime = () => data.weakest ? data.weakest.index + (data.weakest.in_transfer ? touchDown : 0) : 0;
 
 const keys = {
   " ": () => play(!state.playing), k: () => play(!state.playing),
@@ -186,10 +187,12 @@ element("table").addEventListener("toggle", () => {
     button.setAttribute("aria-label", k < steps ? `Go to step ${k + 1}` : "Go to the end");
     row.insertCell().append(button);
     const {from} = data.stances[k].free || {};
-    for (const text of [transfer ? `${transfer.place.leg}` : "", transfer ? (from ? point(place(from)) : "in the air") : "",
-      transfer ? point(place(transfer.place.foothold)) : "", Object.keys(stance.feet).join(" "), point(stance.com),
-      transfer ? `${transfer.lift}` : "", data.stances[k].factor, data.stances[k].why,
-      transfer ? data.transfers[k].factor : "", transfer ? data.transfers[k].why : ""]) row.insertCell().textContent = text;
+    const placed = transfer
+      ? [transfer.place.leg, from ? point(place(from)) : "in the air", point(place(transfer.place.foothold))]
+      : ["", "", ""];
+    const moved = transfer ? [data.transfers[k].factor, data.transfers[k].why] : ["", ""];
+    for (const text of [...placed, Object.keys(stance.feet).join(" "), point(stance.com), transfer ? transfer.lift : "",
+      data.stances[k].factor, data.stances[k].why, ...moved]) row.insertCell().textContent = text;
   });
 });
 

@@ -1,4 +1,4 @@
-# cmake -DOUTPUT=FILE.cpp -P embed.cmake: writes player_page() with the template, style and scripts of this folder in it.
+# cmake -DOUTPUT=FILE.cpp -P embed.cmake: writes player_page(), the template with style and scripts in it.
 set(folder ${CMAKE_CURRENT_LIST_DIR})
 file(READ ${folder}/page.html page)
 file(READ ${folder}/style.css style)

@@ -11,6 +11,7 @@ const steps = Math.max(0, Math.min(plan.transfers.length, plan.stances.length - 
 const [reachMin, reachMax] = data.scene.reach;
 const phases = [
   {name: "turn", end: 0.25}, {name: "place", end: 0.42}, {name: "move", end: 0.85}, {name: "lift", end: 1}];
+const touchDown = phases[1].end;
 const legs = [1, 2, 3];
 
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));

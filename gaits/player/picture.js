@@ -109,18 +109,21 @@ function hatch(points) {
   pen.stroke();
 }
 
-const seesPoint = p => { const [x, y] = camera.px(p); return x > -40 && y > -40 && x < camera.width + 40 && y < camera.height + 40; };
+function seesPoint(p) {
+  const [x, y] = camera.px(p), margin = 40;
+  return x > -margin && y > -margin && x < camera.width + margin && y < camera.height + margin;
+}
 
 function drawPath(now) {
   const done = now.step + (now.phase === "move" ? 0 : now.phase === "lift" ? 1 : 0);
-  const spacing = plan.stances.length > 1 ? distance(camera.px(world.slice(0, 2)), camera.px(world.slice(2))) / steps : 99;
+  const spacing = distance(world.slice(0, 2), world.slice(2)) * camera.scale / Math.max(1, steps);  // px
   for (let k = 0; k < steps; ++k) {
     const from = plan.stances[k].com, to = plan.stances[k + 1].com;
     if (!seesPoint(from) && !seesPoint(to) && distance(from, to) * camera.scale < camera.width) continue;
     const weakest = data.weakest && data.weakest.in_transfer && data.weakest.index === k;
     if (weakest) stroke([from, to], colours.weak, 7);
     stroke([from, to], colours.path, k < done ? 2.2 : 1.4, k < done ? [] : [4, 4]);
-    targets.push({from: camera.px(from), to: camera.px(to), t: k + 0.42, words: () => transferWords(k)});
+    targets.push({from: camera.px(from), to: camera.px(to), t: k + touchDown, words: () => transferWords(k)});
   }
   for (let k = 0; k < plan.stances.length; ++k) {
     const com = plan.stances[k].com;
@@ -128,7 +131,8 @@ function drawPath(now) {
     const at = camera.px(com);
     if (data.weakest && !data.weakest.in_transfer && data.weakest.index === k) disc(at, 8, colours.weak);
     disc(at, spacing < 8 ? 1.5 : 3.2, colours.halo, colours.path);
-    if (spacing > 22 && k < steps && distance(at, camera.px(now.com)) > 14) label(String(k + 1), [at[0], at[1] - 8], {size: 10, colour: colours.faint});
+    if (spacing > 22 && k < steps && distance(at, camera.px(now.com)) > 14)
+      label(String(k + 1), [at[0], at[1] - 8], {size: 10, colour: colours.faint});
     targets.push({at, t: k, words: () => stanceWords(k)});
   }
 }
@@ -142,8 +146,8 @@ function drawFootholds(now) {
     pen.globalAlpha = past ? 0.45 : 1;
     disc(at, radius, past ? colours["leg" + leg] : colours.halo, colours["leg" + leg], 0.47 * radius);
     pen.globalAlpha = 1;
-    targets.push({at, t: k + 0.42, words: () => [`leg ${leg}, ${k < 0 ? "where it stands at the start" : "placed in step " + (k + 1)}`,
-      ...footWords(foot)]});
+    const when = k < 0 ? "where it stands at the start" : `placed in step ${k + 1}`;
+    targets.push({at, t: k + touchDown, words: () => [`Leg ${leg}, ${when}`, ...footWords(foot)]});
   };
   for (const leg in data.scene.start) dot(leg, data.scene.start[leg], true, -1);
   plan.transfers.forEach((transfer, k) => dot(transfer.place.leg, transfer.place.foothold, k <= now.step, k));
@@ -202,7 +206,8 @@ function drawAxis() {
     const x = camera.px([k * step, 0])[0];
     pen.fillStyle = colours.faint;
     pen.fillRect(x, y, 1, 6);
-    if (x > 24 && x < camera.width - 24) label(`${(k * step).toFixed(digits)} m`, [x, y - 4], {size: 10, colour: colours.faint});
+    if (x < 24 || x > camera.width - 24) continue;
+    label(`${(k * step).toFixed(digits)} m`, [x, y - 4], {size: 10, colour: colours.faint});
   }
 }
 

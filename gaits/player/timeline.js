@@ -2,15 +2,16 @@
 const strip = document.getElementById("strip");
 const stripPen = strip.getContext("2d");
 
-const factorOf = text => text === "inf" ? Infinity : Number(text.replace("<", ""));
 const bars = [];
 plan.stances.forEach((stance, k) => {
-  bars.push({begin: k, end: k + 0.42, sigma: factorOf(String(stance.safety_factor)), limit: stance.limit});
-  if (k < steps) bars.push({begin: k + 0.42, end: k + 1, sigma: factorOf(String(plan.transfers[k].safety_factor)),
-    limit: plan.transfers[k].limit});
+  const add = (begin, end, {safety_factor: sigma, limit}) =>
+    bars.push({begin, end, sigma: sigma === "inf" ? Infinity : sigma, limit});
+  add(k, k + touchDown, stance);
+  if (k < steps) add(k + touchDown, k + 1, plan.transfers[k]);
 });
 const finite = bars.map(bar => bar.sigma).filter(sigma => sigma < Infinity);
-const highest = clamp(Math.max(2, ...finite.slice().sort((a, b) => a - b).slice(0, Math.ceil(0.95 * finite.length))), 2, 20);
+finite.sort((a, b) => a - b);
+const highest = clamp(finite[Math.ceil(0.95 * finite.length) - 1] || 2, 2, 20);  // the height of the strip
 const pad = 8;  // px: half the thumb of the time bar
 
 const stripX = t => pad + (strip.clientWidth - 2 * pad) * t / Math.max(steps, 0.5);
@@ -28,8 +29,10 @@ function paintBars() {
   const tallness = sigma => sigma > 1 ? 4 + (tall - 4) * Math.min(1, Math.log(sigma) / Math.log(highest)) : 2;
   // Several bars may share a pixel: the lowest is seen.
   const columns = new Map();
+  const gap = stripX(1) - stripX(0) > 8 ? 1 : 0;
   for (const bar of bars) {
-    const from = Math.round(stripX(bar.begin)), to = Math.max(from + 1, Math.round(stripX(Math.min(bar.end, steps))) - (stripX(1) - stripX(0) > 8 ? 1 : 0));
+    const from = Math.round(stripX(bar.begin)), next = Math.round(stripX(Math.min(bar.end, steps)));
+    const to = Math.max(from + 1, next - gap);
     const seen = columns.get(from);
     if (!seen || seen.bar.sigma > bar.sigma) columns.set(from, {bar, from, to});
   }
@@ -62,5 +65,5 @@ function drawStrip(t) {
 function barWords(x) {
   const t = stripTime(x), k = Math.min(Math.floor(t), steps);
   if (!plan.stances.length) return [];
-  return t - k < 0.42 || k >= steps ? stanceWords(k) : transferWords(k);
+  return t - k < touchDown || k >= steps ? stanceWords(k) : transferWords(k);
 }

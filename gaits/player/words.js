@@ -20,7 +20,8 @@ function phaseWords({step, phase, legs: shown}) {
 }
 
 function stanceWords(k) {
-  return [k < steps ? `Stance of step ${k + 1}` : "Last stance", `COM ${point(plan.stances[k].com)}`, safety(data.stances[k])];
+  const name = k < steps ? `Stance of step ${k + 1}` : "Last stance";
+  return [name, `COM ${point(plan.stances[k].com)}`, safety(data.stances[k])];
 }
 
 function transferWords(k) {
@@ -51,7 +52,7 @@ function comWords(now) {
 
 function regionWords(region) {
   return [`Where the COM may be with these ${region.feet.length} feet`,
-    region.name === "R(W)" ? "R(W): stable under every disturbance of W" : "R_SS(W): in balance under every disturbance of W",
+    `${region.name}: ${region.name === "R(W)" ? "stable" : "in balance"} under every disturbance of W`,
     "and within reach"];
 }
 

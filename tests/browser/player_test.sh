@@ -29,7 +29,8 @@ browse() {
   timeout 240 "$browser" --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run \
     --user-data-dir="$work/profile" --enable-logging=stderr --virtual-time-budget=60000 --dump-dom "$@" \
     "file://$address" 2>"$work/log" || echo "the browser ended with status $?"
-  grep -F CONSOLE "$work/log" | grep -vF willReadFrequently >"$work/console" || true  # advice about the checks' own reading
+  # Left out: advice about how often the checks read pixels.
+  grep -F CONSOLE "$work/log" | grep -vF willReadFrequently >"$work/console" || true
 }
 
 # expect NAME PATTERN: the document in $work/dom has it.

@@ -15,6 +15,7 @@
 #include "planner/console.hpp"
 #include "planner/figure_outputs.hpp"
 #include "planner/refine.hpp"
+#include "planner/remedies.hpp"
 #include "planner/search.hpp"
 
 namespace surefoot::planner {
@@ -122,15 +123,32 @@ void deliver(const PlanArguments& arguments, const gaits::Scene& scene, const ga
   outputs.commit(arguments.quiet);
 }
 
+/// For --explain where there is no plan; lines of text.
+std::string what_would_help(const gaits::Scene& scene, SearchOptions options, bool quiet) {
+  if (!quiet) show_progress("looking for what would help ...");
+  options.progress = [](const std::string&) {};
+  const Remedies tried = remedies(scene, options);
+  show_progress("");
+  std::string text = "No single change of friction, reach, disturbances or clearance was found to help.\n";
+  if (!tried.found.empty())
+    text = "Each of these alone would do (with it a plan was found and verified; with less none was found):\n";
+  for (const RemedyFound& remedy : tried.found) text += fmt::format("  {}\n", remedy.words);
+  if (tried.cut_off) text += "This was cut off by the time limit: others, or less, might do.\n";
+  return text;
+}
+
 /// No plan: said where the plan would have gone, but no file is touched.
 int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan,
-                   const FigureOutputs& outputs) {
+                   const FigureOutputs& outputs, const SearchOptions& options) {
   const OutputFile* file = outputs.file("-o");
+  const std::string format = output_format(arguments);
   if (!file)
-    write_stdout(written(scene, plan, output_format(arguments), arguments.explain, stdout_takes_colour()));
+    write_stdout(written(scene, plan, format, arguments.explain, stdout_takes_colour()));
   else
     note(fmt::format("{}{}{}; {} is not written", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ",
                      plan.reason, file->path()));
+  if (arguments.explain && format == "text" && !options.interrupted())
+    write_stdout("\n" + what_would_help(scene, options, arguments.quiet));
   return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
 }
 
@@ -169,7 +187,7 @@ int run_plan(const PlanArguments& arguments) {
     if (arguments.verbose) tell(plan);
   }
   plan.time_s = elapsed();
-  if (plan.status != gaits::Status::solved) return report_no_plan(arguments, scene, plan, outputs);
+  if (plan.status != gaits::Status::solved) return report_no_plan(arguments, scene, plan, outputs, options);
   deliver(arguments, scene, plan, outputs);
   return exit_success;
 }

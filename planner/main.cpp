@@ -107,6 +107,8 @@ CLI::App* add_region(CLI::App& app, RegionArguments& a) {
   region->add_option("--stance", a.stance, "two or three legs that stand (default: the scene's first stance)")
       ->type_name("LEG,LEG");
   region->add_option("--wrench", a.wrench, "one wrench p,q [1, m] instead of the box W")->type_name("P,Q");
+  region->add_option("--restitution", a.restitution, "two contacts: where they are frictionally stable, for this coefficient\n"
+                     "between 0 and 1 (default: that of the scene or posture)")->type_name("E");
   region->add_option("--window", a.window, "clip to this rectangle [m]")->type_name("XMIN,YMIN,XMAX,YMAX");
   region->add_option("--svg", a.svg, "draw it; - for standard output")->type_name("FILE");
   region->add_option("--json", a.json, "cells, areas and boundaries; - for standard output")->type_name("FILE");
@@ -120,6 +122,8 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   CLI::App* simulate = app.add_subcommand("simulate", "Hybrid dynamics of a posture after a push: collisions, slides, rest or not");
   simulate->add_option("POSTURE", a.posture, "a query line of one or two contacts (JSON), - for standard input; may have\n"
                        "restitution, gravity, q, q_rate, heights, heights_rate");
+  simulate->add_option("--scene", a.scene, "instead of a posture: two start feet of a scene (YAML)")->type_name("SCENE");
+  simulate->add_option("--stance", a.stance, "which two (default: the scene's first stance)")->type_name("LEG,LEG");
   simulate->add_option("--restitution", a.restitution, "coefficient of restitution, between 0 and 1")->type_name("E");
   simulate->add_option("--com", a.com, "COM [m]")->type_name("X,Y");
   simulate->add_option("--q", a.q, "start: displacement and turn [m, m, rad]")->type_name("RX,RY,THETA");

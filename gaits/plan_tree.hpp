@@ -1,5 +1,5 @@
-// Plans as trees of JSON, for the writers of gaits/ alone: the library for JSON does not show in the headers that others
-// include.
+// Plans as trees of JSON, for the writers of gaits/ alone: the library for JSON does not show in the headers that
+// others include.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -65,7 +65,8 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   plan->add_option("--effort", a.effort, "work spent on a better plan, relative to the usual; 0: take the first")
       ->type_name("X");
   plan->add_flag("--no-refine", a.no_refine, "leave the plan as the search found it");
-  plan->add_flag("--explain", a.explain, "say what limits each step, or, where there is no plan, what would help (takes up to the time limit again)");
+  plan->add_flag("--explain", a.explain,
+                 "say what limits each step and what was left out; where there is no plan, what would help (takes longer)");
   auto* quiet = plan->add_flag("-q,--quiet", a.quiet, "nothing but the result: no progress, no notes");
   plan->add_flag("-v,--verbose", a.verbose, "counts and times of each stage on standard error")->excludes(quiet);
   plan->footer(

@@ -147,7 +147,7 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
   else
     note(fmt::format("{}{}{}; {} is not written", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ",
                      plan.reason, file->path()));
-  if (arguments.explain && format == "text" && !options.interrupted())
+  if (!file && arguments.explain && format == "text" && !options.interrupted())
     write_stdout("\n" + what_would_help(scene, options, arguments.quiet));
   return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
 }

@@ -4,7 +4,7 @@ const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
 const dark = window.matchMedia("(prefers-color-scheme: dark)");
 const secondsPerStep = 2;  // at speed 1
 
-const state = {t: 0, playing: false, speed: 1, last: 0, wait: 0, pointer: null};
+const state = {t: 0, playing: false, run: 0, speed: 1, last: 0, wait: 0, pointer: null};
 
 function seek(t, say = true) {
   state.t = clamp(Number.isFinite(t) ? t : 0, 0, steps);
@@ -32,13 +32,14 @@ function play(on) {
   element("play").setAttribute("aria-label", state.playing ? "Pause" : "Play");
   element("play").title = `${state.playing ? "Pause" : "Play"} (space)`;
   element("play").classList.toggle("playing", state.playing);
-  if (state.playing) requestAnimationFrame(tick);
+  const run = ++state.run;  // a frame still to come from an earlier one is void
+  if (state.playing) requestAnimationFrame(now => tick(now, run));
   else seek(state.t);
 }
 
 /** One frame. Who asked for reduced motion sees the parts of a step one after the other, without movement. */
-function tick(now) {
-  if (!state.playing) return;
+function tick(now, run) {
+  if (!state.playing || run !== state.run) return;
   const passed = state.last ? Math.min(now - state.last, 250) / 1000 : 0;
   state.last = now;
   const ahead = passed * state.speed / secondsPerStep;
@@ -50,7 +51,7 @@ function tick(now) {
     show();
   }
   if (state.t >= steps) play(false);
-  else requestAnimationFrame(tick);
+  else requestAnimationFrame(next => tick(next, run));
 }
 
 const set = (id, text) => { if (element(id).textContent !== text) element(id).textContent = text; };

@@ -114,8 +114,8 @@ TEST_CASE("A page that plays the plan comes with it, the same whenever it is mad
   CHECK(on_stdout.status == 0);
   CHECK(on_stdout.out == page);
   const std::string plan = place.read("plan.json"), scene_text = place.read("scene.yaml");
-  for (const char* bad : {"--html nowhere/x.html", "--html ./plan.json", "--svg scene.yaml", "--svg - --html -", "--html .",
-                          "--svg x --html ./x"}) {
+  for (const char* bad : {"--html nowhere/x.html", "--html ./plan.json", "--svg scene.yaml", "--svg - --html -",
+                          "--html .", "--svg x --html ./x"}) {
     const auto run = place.run(std::string("check scene.yaml plan.json ") + bad);
     INFO(bad << "\n" << run.err);
     CHECK(run.status == 2);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "gaits/verifier.hpp"
@@ -14,7 +15,9 @@ namespace {
 using namespace surefoot;
 using planner::Remedy;
 
-gaits::Scene map(const std::string& name) { return gaits::load_scene(std::string(SUREFOOT_MAPS) + "/" + name + ".yaml"); }
+gaits::Scene map(const std::string& name) {
+  return gaits::load_scene(std::string(SUREFOOT_MAPS) + "/" + name + ".yaml");
+}
 
 planner::Remedies remedies_of(const gaits::Scene& scene) {
   planner::SearchOptions options;
@@ -24,7 +27,7 @@ planner::Remedies remedies_of(const gaits::Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("A slope that is too slippery asks for the friction that its angle and the disturbance demand", "[remedies]") {
+TEST_CASE("A slope that is too slippery asks for the friction that angle and disturbance demand", "[remedies]") {
   // Both feet on a slope of angle a: the resultant of weight and kappa leans by a + atan(kappa) against the normal. No
   // friction below tan of that holds; the stretch is longer than any step.
   const gaits::Scene scene = map("too_slippery");
@@ -56,7 +59,8 @@ TEST_CASE("What is said to do, does: as a scene written anew", "[remedies]") {
   const std::string old = "disturbance: {kappa: 0.2, nu: 0.03}";
   REQUIRE(before.find(old) != std::string::npos);
   std::string after = before;
-  place.write("scene.yaml", after.replace(after.find(old), old.size(), fmt::format("disturbance: {{kappa: {}, nu: {}}}", kappa, nu)));
+  after.replace(after.find(old), old.size(), fmt::format("disturbance: {{kappa: {}, nu: {}}}", kappa, nu));
+  place.write("scene.yaml", after);
   CHECK(place.run("plan scene.yaml --effort 0").status == 0);
 }
 

@@ -5,6 +5,7 @@
 
 #include "gaits/plan_io.hpp"
 #include "gaits/verifier.hpp"
+#include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/figure_outputs.hpp"
@@ -19,7 +20,7 @@ int run_check(const CheckArguments& arguments) {
                                                  : gaits::read_plan(arguments.plan);
   FigureOutputs outputs({{"--svg", arguments.svg}, {"--html", arguments.html}}, arguments.plan);
   for (const char* option : {"--svg", "--html"})
-    if (const OutputFile* file = outputs.file(option); file && file->same_as(arguments.scene))
+    if (const OutputFile* file = outputs.file(option); file && file->same_as(scene_file(arguments.scene)))
       throw terrain::InputError(fmt::format("{}: is the scene itself and would be overwritten", file->path()));
   if (plan.status != gaits::Status::solved) {
     write_stdout(fmt::format("no plan to check: status {}{}{}\n", gaits::to_string(plan.status),

@@ -11,6 +11,7 @@
 
 #include "gaits/plan_io.hpp"
 #include "gaits/verifier.hpp"
+#include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/figure_outputs.hpp"
@@ -83,7 +84,8 @@ FigureOutputs open_outputs(const PlanArguments& arguments) {
       throw terrain::InputError(
           fmt::format("{} -: standard output is taken by the plan; give -o a file name too", option));
   return FigureOutputs(
-      {{"-o", arguments.output.value_or("-")}, {"--svg", arguments.svg}, {"--html", arguments.html}}, arguments.scene);
+      {{"-o", arguments.output.value_or("-")}, {"--svg", arguments.svg}, {"--html", arguments.html}},
+      scene_file(arguments.scene));
 }
 
 /// The refined plan where it holds, the plan as found where only that holds; `fault` where neither does.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/figure_outputs.hpp"
@@ -93,7 +94,7 @@ int run_region(const RegionArguments& arguments) {
   const stability::RegionOptions options = options_of(arguments);
   const Subject subject = read_subject(arguments);
   FigureOutputs outputs({{"--svg", arguments.svg}, {"--json", arguments.json}},
-                        arguments.scene ? arguments.scene : arguments.posture);
+                        arguments.scene ? scene_file(*arguments.scene) : arguments.posture);
   const gaits::RegionFigure& figure = subject.figure;
   const stability::Region region =
       stability::region(figure.contacts, figure.radius_of_gyration, figure.box, options);

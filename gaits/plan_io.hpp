@@ -32,6 +32,12 @@ std::string to_yaml(const Plan& plan);  ///< the same tree, valid for readers of
 /// journeys are broken into rows like the lines of a page.
 std::string to_svg(const Scene& scene, const Plan& plan);
 
+/// A self-contained page that plays the gait in a browser, without network: each step with the motion that the rules
+/// check (lift-off, turn of the shortened leg about the COM, touch-down, COM on its line), the region of COMs that
+/// hold, the safety factor and what limits it. The plan is in it as to_json writes it, without time_s. `faults`: what
+/// the verifier has against the plan, one line each. Throws std::invalid_argument as to_json.
+std::string to_html(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults = {});
+
 /// Reads JSON or YAML (JSON is YAML). Throws terrain::InputError with file:line:column. Positions are taken as written;
 /// whether they lie on the scene's terrain, and whether the steps make a gait, is for the verifier to say. Where a
 /// foothold gives no `normal` or `friction` (both are optional and derive from the terrain), Foothold's defaults stand.

@@ -4,12 +4,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "gaits/plan_io.hpp"
+#include "gaits/plan_tree.hpp"
 
 namespace surefoot::gaits {
 namespace {
@@ -30,6 +30,8 @@ Tree factor(double sigma) {
   return finite(sigma, "safety factor");
 }
 
+}  // namespace
+
 Tree tree_of(const terrain::Foothold& foot) {
   Tree tree;
   tree["chain"] = foot.chain;
@@ -41,6 +43,10 @@ Tree tree_of(const terrain::Foothold& foot) {
   tree["friction"] = finite(foot.friction, "friction of a foothold");
   return tree;
 }
+
+namespace {
+
+using gaits::tree_of;
 
 Tree tree_of(const Stance& stance) {
   Tree tree;
@@ -86,6 +92,8 @@ Tree tree_of(const Resolution& resolution) {
   return tree;
 }
 
+}  // namespace
+
 Tree tree_of(const Plan& plan) {
   Tree tree;
   tree["surefoot"] = 1;
@@ -105,6 +113,8 @@ Tree tree_of(const Plan& plan) {
   tree["left_out"] = list_of(plan.left_out);
   return tree;
 }
+
+namespace {
 
 /// Shortest form that reads back to the same double and is seen as a floating-point number by every reader: with a
 /// decimal point (YAML 1.1 takes 1e-07 for a string, some JSON readers take -0 for the integer 0).

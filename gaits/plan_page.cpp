@@ -39,7 +39,13 @@ AlignedBox2d ground_between(const Scene& scene, double x_from, double x_to) {
   return box;
 }
 
-/// Everything that has to be seen; of a journey that is not made, the ground it would cross.
+int rows_needed(double scale, double reach, double length) {
+  const double home = (widest_page - 2 * margin) / scale - 2 * reach;  // a reach is shown on either side
+  return home > 0 ? static_cast<int>(std::ceil(length / home)) : most_rows + 1;
+}
+
+}  // namespace
+
 AlignedBox2d contents(const Scene& scene, const Plan& plan) {
   AlignedBox2d box;
   extend(box, scene.start.feet);
@@ -54,13 +60,6 @@ AlignedBox2d contents(const Scene& scene, const Plan& plan) {
   if (plan.status != Status::solved) box.extend(ground_between(scene, box.min().x(), box.max().x()));
   return box;
 }
-
-int rows_needed(double scale, double reach, double length) {
-  const double home = (widest_page - 2 * margin) / scale - 2 * reach;  // a reach is shown on either side
-  return home > 0 ? static_cast<int>(std::ceil(length / home)) : most_rows + 1;
-}
-
-}  // namespace
 
 int Page::row_of(double x) const {
   const double share = (x - rows.front().x_from) / (rows.back().x_to - rows.front().x_from);

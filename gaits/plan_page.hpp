@@ -26,6 +26,9 @@ struct Page {
   int row_of(double x) const;
 };
 
+/// Everything that has to be seen [m]; of a journey that is not made, the ground it would cross.
+Eigen::AlignedBox2d contents(const Scene& scene, const Plan& plan);
+
 /// `top` [px] is left free above the first row.
 Page lay_out(const Scene& scene, const Plan& plan, double top);
 

@@ -50,7 +50,7 @@ class PlanPicture {
  public:
   PlanPicture(const Scene& scene, const Plan& plan)
       : scene_(scene), plan_(plan), terrain_(scene.terrain), weakest_(weakest_place(plan)),
-        page_(lay_out(scene, plan, top)), canvas_(page_.width, page_.height, title()) {}
+        page_(lay_out(scene, plan, top)), canvas_(page_.width, page_.height, title_of(plan)) {}
 
   std::string draw() {
     heading();
@@ -60,19 +60,6 @@ class PlanPicture {
   }
 
  private:
-  std::string title() const {
-    switch (plan_.status) {
-      case Status::solved:
-        return fmt::format("{}: {} step{}, safety factor {}", plan_.scene, plan_.steps(), plan_.steps() == 1 ? "" : "s",
-                           factor_in_words(plan_.safety_factor));
-      case Status::no_plan_found:
-        return plan_.scene + ": no plan found";
-      case Status::infeasible:
-        return plan_.scene + ": infeasible";
-    }
-    return plan_.scene;
-  }
-
   bool has_weakest() const { return weakest_.index >= 0 && !std::isinf(weakest_.sigma); }
 
   std::string subtitle() const {
@@ -85,7 +72,7 @@ class PlanPicture {
   }
 
   void heading() {
-    canvas_.text({30, 36}, title(), {.size = 20, .bold = true});
+    canvas_.text({30, 36}, title_of(plan_), {.size = 20, .bold = true});
     canvas_.text({30, 58}, subtitle(), {.size = 13, .colour = faint});
     const double metres = round_length(160 / page_.scale);
     const double left = page_.width - 30 - metres * page_.scale, right = page_.width - 30;
@@ -180,13 +167,7 @@ class PlanPicture {
   }
 
   void support(const PageRow& row, int k) {
-    std::vector<stability::Contact> contacts;
-    for (const auto& foot : plan_.stances[k].feet) {
-      if (!foot) continue;
-      const terrain::Segment* segment = terrain_.segment_of(*foot);
-      if (!segment) return;  // a plan of another scene
-      contacts.push_back({foot->position, segment->normal, segment->surface.friction});
-    }
+    const std::vector<stability::Contact> contacts = terrain_.contacts_of(plan_.stances[k].feet);
     const Polyline window = reachable(plan_.stances[k].feet);
     if (contacts.empty() || window.size() < 3) return;
     const stability::RobustOracle oracle(contacts, scene_.robot.radius_of_gyration, scene_.disturbance);

@@ -30,13 +30,6 @@ std::string legs_text(const std::vector<int>& legs) {
   return text.empty() ? "-" : text;
 }
 
-/// Millimetres for a robot of about a metre; in general at least a thousandth of its reach.
-int decimals_for(double reach) {
-  constexpr int millimetres = 3, most = 12;
-  if (!(reach > 0)) return millimetres;
-  return std::clamp(2 - static_cast<int>(std::floor(std::log10(reach))), millimetres, most);
-}
-
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : printable(text); }
 
 class Report {

@@ -32,6 +32,19 @@ std::string feet_in_words(const std::vector<int>& legs) {
 
 }  // namespace
 
+std::string title_of(const Plan& plan) {
+  switch (plan.status) {
+    case Status::solved:
+      return fmt::format("{}: {} step{}, safety factor {}", plan.scene, plan.steps(), plan.steps() == 1 ? "" : "s",
+                         factor_in_words(plan.safety_factor));
+    case Status::no_plan_found:
+      return plan.scene + ": no plan found";
+    case Status::infeasible:
+      return plan.scene + ": infeasible";
+  }
+  return plan.scene;
+}
+
 WeakestPlace weakest_place(const Plan& plan) {
   WeakestPlace least;
   for (int k = 0; k < static_cast<int>(plan.stances.size()); ++k) {
@@ -79,6 +92,12 @@ std::string factor_in_words(double sigma) {
   if (sigma < 1e-3 || sigma >= 1e5) return fmt::format("{:.2e}", sigma);
   const int before_point = static_cast<int>(std::floor(std::log10(sigma))) + 1;
   return fmt::format("{:.{}f}", sigma, std::max(0, 3 - before_point));
+}
+
+int decimals_for(double reach) {
+  constexpr int millimetres = 3, most = 12;
+  if (!(reach > 0)) return millimetres;
+  return std::clamp(2 - static_cast<int>(std::floor(std::log10(reach))), millimetres, most);
 }
 
 std::vector<int> planted_legs(const Feet& feet) {

@@ -8,6 +8,9 @@
 
 namespace surefoot::gaits {
 
+/// "stairs-up: 9 steps, safety factor 1.11", "gap: no plan found".
+std::string title_of(const Plan& plan);
+
 /// What a limit means: ("UF", {0, 2}) -> "foot 1 slides along +t while foot 3 breaks away". `legs` (0..2) are the
 /// planted legs in increasing order, one per letter of a mode.
 std::string limit_in_words(const std::string& limit, const std::vector<int>& legs);
@@ -25,6 +28,10 @@ std::string place_in_words(const WeakestPlace& place, int steps);
 
 /// A safety factor to three significant digits; one below 1 never reads 1.00 ("<1.00"), infinity reads "inf".
 std::string factor_in_words(double sigma);
+
+/// Digits of a length [m] after the point: millimetres for a robot of about a metre; in general at least a thousandth
+/// of its reach.
+int decimals_for(double reach);
 
 /// Legs (0..2) that stand, in increasing order.
 std::vector<int> planted_legs(const Feet& feet);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 
 #include "stability/frictional.hpp"
@@ -121,6 +123,20 @@ bool swing_is_free(const Scene& scene, const Vector2d& com, const Vector2d& old_
   const double radius = scene.robot.reach_min;
   const Vector2d from = old_foot - com, to = new_foot - com;
   return scene.terrain.sector_is_free(com, radius, from, to) || scene.terrain.sector_is_free(com, radius, to, from);
+}
+
+std::optional<double> swing_turn(const Scene& scene, const Vector2d& com, const Vector2d& old_foot,
+                                 const Vector2d& new_foot) {
+  const double radius = scene.robot.reach_min;
+  const Vector2d from = old_foot - com, to = new_foot - com;
+  const bool any_way = swings_any_way(scene, com);
+  const bool left = any_way || scene.terrain.sector_is_free(com, radius, from, to);
+  const bool right = any_way || scene.terrain.sector_is_free(com, radius, to, from);
+  const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+  if (angle >= 0 ? left : right) return angle;  // the shorter way
+  if (left) return angle + 2 * std::numbers::pi;
+  if (right) return angle - 2 * std::numbers::pi;
+  return std::nullopt;
 }
 
 RobustOracle oracle_of(const Scene& scene, const Feet& feet) { return oracle_of(scene, feet, scene.disturbance); }

@@ -50,6 +50,10 @@ bool clear_of_terrain(const Scene& scene, const Eigen::Vector2d& from, const Eig
 /// when it may shorten to reach_min (theory: the sector of that radius holds no terrain).
 bool swing_is_free(const Scene& scene, const Eigen::Vector2d& com, const Eigen::Vector2d& old_foot,
                    const Eigen::Vector2d& new_foot);
+/// The angle [rad], counter-clockwise positive, by which it then turns: the shorter of the free ways; nothing if
+/// neither is free.
+std::optional<double> swing_turn(const Scene& scene, const Eigen::Vector2d& com, const Eigen::Vector2d& old_foot,
+                                 const Eigen::Vector2d& new_foot);
 /// Nothing is nearer to the COM than the shortened leg is long: swing_is_free whatever the footholds.
 bool swings_any_way(const Scene& scene, const Eigen::Vector2d& com);
 

@@ -94,18 +94,23 @@ TerrainPicture::TerrainPicture(const terrain::Terrain& terrain) : terrain_(terra
   }
 }
 
-void TerrainPicture::draw_ground(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const {
-  for (std::size_t c = 0; c < chains_.size(); ++c) {
-    if (solids_[c].empty()) {
-      hatch(canvas, view, window, static_cast<int>(c));
-      continue;
-    }
-    Polyline shown = clip(solids_[c], Eigen::Vector2d::UnitX(), -window.min().x());
+std::vector<Polyline> TerrainPicture::ground_in(const Eigen::AlignedBox2d& window) const {
+  std::vector<Polyline> ground;
+  for (const Polyline& solid : solids_) {
+    if (solid.empty()) continue;
+    Polyline shown = clip(solid, Eigen::Vector2d::UnitX(), -window.min().x());
     shown = clip(shown, -Eigen::Vector2d::UnitX(), window.max().x());
     shown = clip(shown, Eigen::Vector2d::UnitY(), -window.min().y());
     shown = clip(shown, -Eigen::Vector2d::UnitY(), window.max().y());
-    if (shown.size() > 2) canvas.polygon(view(shown), ground);
+    if (shown.size() > 2) ground.push_back(std::move(shown));
   }
+  return ground;
+}
+
+void TerrainPicture::draw_ground(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const {
+  for (const Polyline& solid : ground_in(window)) canvas.polygon(view(solid), ground);
+  for (std::size_t c = 0; c < chains_.size(); ++c)
+    if (solids_[c].empty()) hatch(canvas, view, window, static_cast<int>(c));
 }
 
 void TerrainPicture::hatch(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window, int chain) const {
@@ -127,23 +132,30 @@ TerrainPicture::Grip TerrainPicture::grip(const Segment& segment) const {
   return friction < usual_friction_ ? Grip::less : friction > usual_friction_ ? Grip::more : Grip::usual;
 }
 
-void TerrainPicture::draw_surface(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const {
-  const auto paint_of = [&](const Segment& s) {
-    const Grip g = grip(s);
-    return g == Grip::usual ? usual_stroke : g == Grip::less ? less_stroke : more_stroke;
-  };
+std::vector<TerrainPicture::Run> TerrainPicture::surface_in(const Eigen::AlignedBox2d& window) const {
   const auto alike = [&](const Segment& a, const Segment& b) {
     return a.chain == b.chain && grip(a) == grip(b) && a.surface.foothold == b.surface.foothold;
   };
   const auto& segments = terrain_.segments();
+  std::vector<Run> runs;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (!shows(segments[i], window)) continue;
     const Segment& first = segments[i];
-    Polyline run{first.a, first.b};
+    const bool hatched = solids_[static_cast<std::size_t>(first.chain)].empty();
+    Run& run = runs.emplace_back(Run{grip(first), first.surface.foothold, hatched, {first.a, first.b}});
     for (; i + 1 < segments.size() && alike(first, segments[i + 1]) && shows(segments[i + 1], window); ++i)
-      run.push_back(segments[i + 1].b);
-    canvas.polyline(view(run), paint_of(first));
-    if (!first.surface.foothold) canvas.polyline(view(run), no_foothold);
+      run.points.push_back(segments[i + 1].b);
+  }
+  return runs;
+}
+
+void TerrainPicture::draw_surface(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const {
+  for (const Run& run : surface_in(window)) {
+    const Polyline points = view(run.points);
+    canvas.polyline(points, run.grip == Grip::usual  ? usual_stroke
+                            : run.grip == Grip::less ? less_stroke
+                                                     : more_stroke);
+    if (!run.foothold) canvas.polyline(points, no_foothold);
   }
 }
 
@@ -174,6 +186,17 @@ const Segment* TerrainPicture::segment_of(const terrain::Foothold& foot) const {
   if (foot.chain < 0 || foot.chain >= static_cast<int>(chains_.size()) || foot.segment < 0) return nullptr;
   const std::size_t at = chain_begin_[foot.chain] + static_cast<std::size_t>(foot.segment);
   return at < chain_begin_[foot.chain + 1] ? &terrain_.segments()[at] : nullptr;
+}
+
+std::vector<stability::Contact> TerrainPicture::contacts_of(const Feet& feet) const {
+  std::vector<stability::Contact> contacts;
+  for (const auto& foot : feet) {
+    if (!foot) continue;
+    const Segment* segment = segment_of(*foot);
+    if (!segment) return {};
+    contacts.push_back({foot->position, segment->normal, segment->surface.friction});
+  }
+  return contacts;
 }
 
 }  // namespace surefoot::gaits

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "gaits/plan.hpp"
 #include "gaits/svg_canvas.hpp"
+#include "stability/contact.hpp"
 #include "terrain/terrain.hpp"
 
 namespace surefoot::gaits {
@@ -22,6 +24,21 @@ class TerrainPicture {
   /// The surface as strokes: friction by colour, no foothold by dashes.
   void draw_surface(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window) const;
 
+  enum class Grip { usual, less, more };  ///< than most of the terrain
+  /// A stretch of like surface along a chain.
+  struct Run {
+    Grip grip = Grip::usual;
+    bool foothold = true;
+    bool hatched = false;  ///< its chain has no solid side that could be filled
+    Polyline points;       ///< [m]
+  };
+  /// What the pictures are made of, in metres: the solid side, cut at the window, and every stretch of surface that may
+  /// show in it.
+  std::vector<Polyline> ground_in(const Eigen::AlignedBox2d& window) const;
+  std::vector<Run> surface_in(const Eigen::AlignedBox2d& window) const;
+  /// "friction 0.2 to 0.4"; empty if the terrain has no such grip.
+  std::string friction_range(Grip grip) const;
+
   struct Key {
     Paint paint;
     std::optional<Paint> overlay;
@@ -32,12 +49,13 @@ class TerrainPicture {
 
   /// Segment of a foothold, nullptr if the terrain has none such.
   const terrain::Segment* segment_of(const terrain::Foothold& foot) const;
+  /// Planted feet as contacts with the terrain's surface, in the order of the legs; none if one of them stands on no
+  /// segment of it (a plan of another scene).
+  std::vector<stability::Contact> contacts_of(const Feet& feet) const;
 
  private:
-  enum class Grip { usual, less, more };
   Grip grip(const terrain::Segment& segment) const;
   void hatch(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window, int chain) const;
-  std::string friction_range(Grip grip) const;
 
   const terrain::Terrain& terrain_;
   std::vector<Polyline> chains_;  ///< vertices

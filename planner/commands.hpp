@@ -20,17 +20,22 @@ enum ExitStatus : int {
 
 struct PlanArguments {
   std::string scene;
-  std::optional<std::string> output, svg;  ///< files; "-" is stdout
-  std::optional<std::string> format;       ///< text, json, yaml; otherwise by the name of the output
-  std::optional<std::int64_t> seed;        ///< the rest override the scene's `search`
-  std::optional<double> time_limit;        ///< [s]
+  std::optional<std::string> output, svg, html;  ///< files; "-" is stdout
+  std::optional<std::string> format;             ///< text, json, yaml; otherwise by the name of the output
+  std::optional<std::int64_t> seed;              ///< the rest override the scene's `search`
+  std::optional<double> time_limit;              ///< [s]
   std::optional<std::string> planner, objective;
-  double effort = 1;                       ///< work spent on a better plan, relative to the usual
+  double effort = 1;                             ///< work spent on a better plan, relative to the usual
   bool no_refine = false, explain = false, quiet = false, verbose = false;
 };
 
+struct CheckArguments {
+  std::string scene, plan;
+  std::optional<std::string> svg, html;  ///< pictures of the plan, whether it holds or not
+};
+
 int run_plan(const PlanArguments& arguments);
-int run_check(const std::string& scene, const std::string& plan);
+int run_check(const CheckArguments& arguments);
 /// Lines of `file`, "-" for stdin. With `stats`, stderr tells how the answers were decided.
 int run_query(const std::string& file, bool stats);
 /// Lists the canned scenes (canned_scenes.hpp).

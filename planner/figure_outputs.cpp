@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "planner/console.hpp"
 #include "terrain/document.hpp"
 
@@ -9,34 +11,58 @@ namespace surefoot::planner {
 
 using terrain::InputError;
 
-FigureOutputs::FigureOutputs(const std::optional<std::string>& svg, const std::optional<std::string>& json,
-                             const std::optional<std::string>& input)
-    : svg_(open(svg, input)), json_(open(json, input)) {
-  if (svg_.wanted_on_stdout() && json_.wanted_on_stdout())
-    throw InputError("--svg - and --json -: standard output can hold one of them");
-  if (svg_.file && json_.file && svg_.file->same_as(json_.file->path()))
-    throw InputError(fmt::format("{}: both --svg and --json would write this file", json_.file->path()));
+FigureOutputs::FigureOutputs(const std::vector<Request>& requests, const std::optional<std::string>& input) {
+  for (const Request& request : requests)
+    if (request.path) targets_.push_back(open(request, input));
+  for (auto one = targets_.begin(); one != targets_.end(); ++one)
+    for (auto other = one + 1; other != targets_.end(); ++other) {
+      if (!one->file && !other->file)
+        throw InputError(
+            fmt::format("{} - and {} -: standard output can hold one of them", one->option, other->option));
+      if (one->file && other->file && one->file->same_as(other->file->path()))
+        throw InputError(fmt::format("{}: both {} and {} would write this file", other->file->path(), one->option,
+                                     other->option));
+    }
 }
 
-FigureOutputs::Target FigureOutputs::open(const std::optional<std::string>& path,
-                                          const std::optional<std::string>& input) {
-  Target target{path.has_value(), nullptr};
-  if (!path || *path == "-") return target;
-  target.file = std::make_unique<OutputFile>(*path);
+FigureOutputs::Target FigureOutputs::open(const Request& request, const std::optional<std::string>& input) {
+  Target target{request.option, nullptr, {}};
+  if (*request.path == "-") return target;
+  target.file = std::make_unique<OutputFile>(*request.path);
   if (input && *input != "-" && target.file->same_as(*input))
-    throw InputError(fmt::format("{}: is the input itself and would be overwritten", *path));
+    throw InputError(fmt::format("{}: is the input itself and would be overwritten", *request.path));
   return target;
 }
 
-void FigureOutputs::put(const Target& target, const std::string& text) {
-  target.file ? target.file->stage(text) : write_stdout(text);
+const FigureOutputs::Target* FigureOutputs::find(std::string_view option) const {
+  const auto found =
+      std::find_if(targets_.begin(), targets_.end(), [&](const Target& target) { return target.option == option; });
+  return found == targets_.end() ? nullptr : &*found;
 }
 
-void FigureOutputs::commit() const {
-  for (const Target* target : {&svg_, &json_})
-    if (target->file) {
-      target->file->commit();
-      note("wrote " + target->file->path());
+bool FigureOutputs::wants(std::string_view option) const { return find(option) != nullptr; }
+
+const OutputFile* FigureOutputs::file(std::string_view option) const {
+  const Target* target = find(option);
+  return target ? target->file.get() : nullptr;
+}
+
+bool FigureOutputs::to_stdout() const {
+  return std::any_of(targets_.begin(), targets_.end(), [](const Target& target) { return !target.file; });
+}
+
+void FigureOutputs::put(std::string_view option, const std::string& text) {
+  for (Target& target : targets_)
+    if (target.option == option) target.file ? target.file->stage(text) : void(target.text = text);
+}
+
+void FigureOutputs::commit(bool quiet) {
+  for (const Target& target : targets_)
+    if (!target.file) write_stdout(target.text);
+  for (const Target& target : targets_)
+    if (target.file) {
+      target.file->commit();
+      if (!quiet) note("wrote " + target.file->path());
     }
 }
 

@@ -1,9 +1,12 @@
-// Where a command that draws puts its picture and its data: files of their own, or one of them on standard output.
+// Where a command puts its result, pictures and data: files of their own, or one of them on standard output. Nothing is
+// written until all of it is there.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "planner/output_file.hpp"
 
@@ -11,30 +14,34 @@ namespace surefoot::planner {
 
 class FigureOutputs {
  public:
-  /// `svg` and `json` as given to the command, "-" is stdout; `input` is what the command reads, "-" or nothing for no
-  /// file. Throws InputError where two of them are one, OutputError where a file cannot be written.
-  FigureOutputs(const std::optional<std::string>& svg, const std::optional<std::string>& json,
-                const std::optional<std::string>& input);
+  struct Request {
+    const char* option;               ///< "--svg"
+    std::optional<std::string> path;  ///< as given, "-" is stdout; nothing: not wanted
+  };
+  /// `input` is what the command reads, "-" or nothing for no file. Throws InputError where two of them are one,
+  /// OutputError where a file cannot be written.
+  FigureOutputs(const std::vector<Request>& requests, const std::optional<std::string>& input);
 
-  bool wants_svg() const { return svg_.wanted; }
-  bool wants_json() const { return json_.wanted; }
-  /// Standard output holds the picture or the data, and nothing else.
-  bool to_stdout() const { return svg_.wanted_on_stdout() || json_.wanted_on_stdout(); }
-  void put_svg(const std::string& text) const { put(svg_, text); }
-  void put_json(const std::string& text) const { put(json_, text); }
-  /// Files take their places; each is told of on standard error.
-  void commit() const;
+  bool wants(std::string_view option) const;
+  /// The file it goes to; nullptr if it goes to standard output or is not wanted.
+  const OutputFile* file(std::string_view option) const;
+  /// Standard output holds one of them, and nothing else.
+  bool to_stdout() const;
+  /// Stages the text of a wanted output.
+  void put(std::string_view option, const std::string& text);
+  /// Standard output is written, then files take their places; each is told of on standard error unless `quiet`.
+  void commit(bool quiet = false);
 
  private:
   struct Target {
-    bool wanted = false;
+    const char* option;
     std::unique_ptr<OutputFile> file;  ///< none: stdout
-    bool wanted_on_stdout() const { return wanted && !file; }
+    std::string text;                  ///< for stdout
   };
-  static Target open(const std::optional<std::string>& path, const std::optional<std::string>& input);
-  static void put(const Target& target, const std::string& text);
+  static Target open(const Request& request, const std::optional<std::string>& input);
+  const Target* find(std::string_view option) const;
 
-  Target svg_, json_;
+  std::vector<Target> targets_;
 };
 
 }  // namespace surefoot::planner

@@ -47,7 +47,8 @@ struct Arguments {
   PlanArguments plan;
   RegionArguments region;
   SimulateArguments simulate;
-  std::string check_scene, check_plan, query_file = "-";
+  CheckArguments check;
+  std::string query_file = "-";
   std::vector<std::string> validate_scenes;
   bool query_stats = false;
 };
@@ -62,6 +63,7 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   plan->add_option("--format", a.format, "text, json or yaml (default: by the name of FILE, else text)")
       ->type_name("NAME");
   plan->add_option("--svg", a.svg, "also draw the plan")->type_name("FILE");
+  plan->add_option("--html", a.html, "also make a page that plays the gait in a browser")->type_name("FILE");
   plan->add_option("--seed", a.seed, "seed of the search (default: the scene's, else 1)")->type_name("N");
   plan->add_option("--time-limit", a.time_limit, "seconds until the search gives up (default: the scene's, else 10)")
       ->type_name("S");
@@ -70,23 +72,26 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   plan->add_option("--effort", a.effort, "work spent on a better plan, relative to the usual; 0: take the first")
       ->type_name("X");
   plan->add_flag("--no-refine", a.no_refine, "leave the plan as the search found it");
-  plan->add_flag("--explain", a.explain, "say what limits each step, and what was left out and why");
+  plan->add_flag("--explain", a.explain,
+                 "say what limits each step and what was left out; where there is no plan, what would help (takes longer)");
   auto* quiet = plan->add_flag("-q,--quiet", a.quiet, "nothing but the result: no progress, no notes");
   plan->add_flag("-v,--verbose", a.verbose, "counts and times of each stage on standard error")->excludes(quiet);
   plan->footer(
       "Exit status: 0 solved, 1 no plan found within the limit, 2 bad input or usage, 3 proven infeasible.\n"
       "Ctrl-C ends the search with the best plan so far; a second one ends the program.\n"
-      "Example: surefoot plan maps/stairs_up.yaml -o plan.json --svg plan.svg");
+      "Example: surefoot plan maps/stairs_up.yaml -o plan.json --svg plan.svg --html plan.html");
   return plan;
 }
 
-CLI::App* add_check(CLI::App& app, Arguments& a) {
+CLI::App* add_check(CLI::App& app, CheckArguments& a) {
   CLI::App* check = app.add_subcommand("check", "Verify a plan file against a scene, independently of the planner");
-  check->add_option("SCENE", a.check_scene, scene_words)->required();
-  check->add_option("PLAN", a.check_plan, "plan file (JSON or YAML), - for standard input")->required();
+  check->add_option("SCENE", a.scene, scene_words)->required();
+  check->add_option("PLAN", a.plan, "plan file (JSON or YAML), - for standard input")->required();
+  check->add_option("--svg", a.svg, "draw the plan, whether it holds or not")->type_name("FILE");
+  check->add_option("--html", a.html, "make a page that plays it in a browser and lists its faults")->type_name("FILE");
   check->footer(
       "Exit status: 0 the plan holds, 1 it does not (one line per fault), 2 bad input or usage.\n"
-      "Example: surefoot check maps/stairs_up.yaml plan.json");
+      "Example: surefoot check maps/stairs_up.yaml plan.json --html plan.html");
   return check;
 }
 
@@ -200,7 +205,7 @@ int run(int count, char** words) {
   app.require_subcommand(1);
   app.footer("surefoot COMMAND --help tells more.");
   const CLI::App* plan = add_plan(app, arguments.plan);
-  const CLI::App* check = add_check(app, arguments);
+  const CLI::App* check = add_check(app, arguments.check);
   const CLI::App* validate = add_validate(app, arguments);
   add_query(app, arguments);
   const CLI::App* region = add_region(app, arguments.region);
@@ -224,7 +229,7 @@ int run(int count, char** words) {
     return exit_bad_input;
   }
   if (plan->parsed()) return run_plan(arguments.plan);
-  if (check->parsed()) return run_check(arguments.check_scene, arguments.check_plan);
+  if (check->parsed()) return run_check(arguments.check);
   if (validate->parsed()) return run_validate(arguments.validate_scenes);
   if (region->parsed()) return run_region(arguments.region);
   if (simulate->parsed()) return run_simulate(arguments.simulate);

@@ -112,7 +112,9 @@ void OutputFile::commit() {
 bool OutputFile::same_as(const std::string& other) const {
   std::error_code ignored;
   if (!replaceable_) return false;
-  return fs::weakly_canonical(target_, ignored) == fs::weakly_canonical(follow_links(other), ignored) ||
+  // weakly_canonical leaves a name without any existing part as it is: "x" and "./x" would differ.
+  const auto place = [&](const std::string& name) { return fs::weakly_canonical(fs::absolute(name, ignored), ignored); };
+  return place(target_) == place(follow_links(other)) ||
          fs::equivalent(target_, other, ignored);
 }
 

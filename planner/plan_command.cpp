@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gaits/plan_io.hpp"
@@ -14,8 +14,9 @@
 #include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
-#include "planner/output_file.hpp"
+#include "planner/figure_outputs.hpp"
 #include "planner/refine.hpp"
+#include "planner/remedies.hpp"
 #include "planner/search.hpp"
 
 namespace surefoot::planner {
@@ -75,31 +76,16 @@ std::string written(const gaits::Scene& scene, const gaits::Plan& plan, const st
   return text;
 }
 
-/// The files a plan goes to, checked before the search, filled only when there is a plan.
-struct Outputs {
-  std::unique_ptr<OutputFile> plan, svg;
-  bool svg_to_stdout = false;
-};
-
-std::unique_ptr<OutputFile> open_output(const std::optional<std::string>& path, const std::string& scene) {
-  if (!path || *path == "-") return nullptr;
-  auto file = std::make_unique<OutputFile>(*path);
-  if (scene != "-" && file->same_as(scene))
-    throw terrain::InputError(fmt::format("{}: is the scene itself and would be overwritten", *path));
-  return file;
-}
-
-Outputs open_outputs(const PlanArguments& arguments) {
-  const std::string scene = scene_file(arguments.scene);
-  Outputs outputs;
-  outputs.plan = open_output(arguments.output, scene);
-  outputs.svg = open_output(arguments.svg, scene);
-  outputs.svg_to_stdout = arguments.svg == "-";
-  if (outputs.plan && outputs.svg && outputs.plan->same_as(outputs.svg->path()))
-    throw terrain::InputError(fmt::format("{}: both -o and --svg would write this file", outputs.svg->path()));
-  if (outputs.svg_to_stdout && !outputs.plan)
-    throw terrain::InputError("--svg -: standard output is taken by the plan; give -o a file name too");
-  return outputs;
+/// Where the plan goes, checked before the search, filled only when there is a plan.
+FigureOutputs open_outputs(const PlanArguments& arguments) {
+  const bool plan_to_stdout = arguments.output.value_or("-") == "-";
+  for (const auto& [option, path] : {std::pair("--svg", arguments.svg), std::pair("--html", arguments.html)})
+    if (plan_to_stdout && path == "-")
+      throw terrain::InputError(
+          fmt::format("{} -: standard output is taken by the plan; give -o a file name too", option));
+  return FigureOutputs(
+      {{"-o", arguments.output.value_or("-")}, {"--svg", arguments.svg}, {"--html", arguments.html}},
+      scene_file(arguments.scene));
 }
 
 /// The refined plan where it holds, the plan as found where only that holds; `fault` where neither does.
@@ -130,29 +116,41 @@ void tell(const gaits::Plan& plan) {
   note(fmt::format("verified: {} stances, {} transfers", plan.stances.size(), plan.transfers.size()));
 }
 
-void deliver(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan, Outputs& outputs) {
-  const bool colour = !outputs.plan && stdout_takes_colour();
-  const std::string text = written(scene, plan, output_format(arguments), arguments.explain, colour);
-  const std::string drawing = arguments.svg ? gaits::to_svg(scene, plan) : std::string();
-  if (outputs.plan) outputs.plan->stage(text);
-  if (outputs.svg) outputs.svg->stage(drawing);
-  if (!outputs.plan) write_stdout(text);
-  if (outputs.svg_to_stdout) write_stdout(drawing);
-  for (OutputFile* file : {outputs.plan.get(), outputs.svg.get()})
-    if (file != nullptr) {
-      file->commit();
-      if (!arguments.quiet) note("wrote " + file->path());
-    }
+void deliver(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan,
+             FigureOutputs& outputs) {
+  const bool colour = !outputs.file("-o") && stdout_takes_colour();
+  outputs.put("-o", written(scene, plan, output_format(arguments), arguments.explain, colour));
+  if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(scene, plan));
+  if (outputs.wants("--html")) outputs.put("--html", gaits::to_html(scene, plan));
+  outputs.commit(arguments.quiet);
+}
+
+/// For --explain where there is no plan; lines of text.
+std::string what_would_help(const gaits::Scene& scene, SearchOptions options, bool quiet) {
+  if (!quiet) show_progress("looking for what would help ...");
+  options.progress = [](const std::string&) {};
+  const Remedies tried = remedies(scene, options);
+  show_progress("");
+  std::string text = "No single change of friction, reach, disturbances or clearance was found to help.\n";
+  if (!tried.found.empty())
+    text = "Each of these alone would do (with it a plan was found and verified; with less none was found):\n";
+  for (const RemedyFound& remedy : tried.found) text += fmt::format("  {}\n", remedy.words);
+  if (tried.cut_off) text += "This was cut off by the time limit: others, or less, might do.\n";
+  return text;
 }
 
 /// No plan: said where the plan would have gone, but no file is touched.
 int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan,
-                   const Outputs& outputs) {
-  if (!outputs.plan)
-    write_stdout(written(scene, plan, output_format(arguments), arguments.explain, stdout_takes_colour()));
+                   const FigureOutputs& outputs, const SearchOptions& options) {
+  const OutputFile* file = outputs.file("-o");
+  const std::string format = output_format(arguments);
+  if (!file)
+    write_stdout(written(scene, plan, format, arguments.explain, stdout_takes_colour()));
   else
     note(fmt::format("{}{}{}; {} is not written", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ",
-                     plan.reason, outputs.plan->path()));
+                     plan.reason, file->path()));
+  if (!file && arguments.explain && format == "text" && !options.interrupted())
+    write_stdout("\n" + what_would_help(scene, options, arguments.quiet));
   return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
 }
 
@@ -162,7 +160,7 @@ int run_plan(const PlanArguments& arguments) {
   output_format(arguments);  // says what is wrong with it before anything else is done
   const gaits::Scene scene = open_scene(arguments.scene);
   SearchOptions options = search_options(arguments, scene);
-  Outputs outputs = open_outputs(arguments);
+  FigureOutputs outputs = open_outputs(arguments);
   if (arguments.verbose)
     note(fmt::format("{}: {} segments, planner {}, seed {}, time limit {} s", scene.name,
                      scene.terrain.segments().size(), options.planner, options.seed, options.time_limit));
@@ -191,7 +189,7 @@ int run_plan(const PlanArguments& arguments) {
     if (arguments.verbose) tell(plan);
   }
   plan.time_s = elapsed();
-  if (plan.status != gaits::Status::solved) return report_no_plan(arguments, scene, plan, outputs);
+  if (plan.status != gaits::Status::solved) return report_no_plan(arguments, scene, plan, outputs, options);
   deliver(arguments, scene, plan, outputs);
   return exit_success;
 }

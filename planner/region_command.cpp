@@ -93,7 +93,8 @@ stability::RegionOptions options_of(const RegionArguments& arguments) {
 int run_region(const RegionArguments& arguments) {
   const stability::RegionOptions options = options_of(arguments);
   const Subject subject = read_subject(arguments);
-  const FigureOutputs outputs(arguments.svg, arguments.json, arguments.scene ? scene_file(*arguments.scene) : arguments.posture);
+  FigureOutputs outputs({{"--svg", arguments.svg}, {"--json", arguments.json}},
+                        arguments.scene ? scene_file(*arguments.scene) : arguments.posture);
   const gaits::RegionFigure& figure = subject.figure;
   const stability::Region region =
       stability::region(figure.contacts, figure.radius_of_gyration, figure.box, options);
@@ -101,11 +102,11 @@ int run_region(const RegionArguments& arguments) {
   if (subject.restitution) {
     stability::FrictionalRegionOptions same;
     same.window = options.window;
-    same.polygons = outputs.wants_svg() || outputs.wants_json();
+    same.polygons = outputs.wants("--svg") || outputs.wants("--json");
     frictional = stability::frictional_region(figure.contacts, figure.radius_of_gyration, *subject.restitution, same);
   }
-  if (outputs.wants_svg()) outputs.put_svg(gaits::to_svg(figure, region, frictional));
-  if (outputs.wants_json()) outputs.put_json(region_to_json(figure, region, frictional));
+  if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(figure, region, frictional));
+  if (outputs.wants("--json")) outputs.put("--json", region_to_json(figure, region, frictional));
   if (!outputs.to_stdout()) write_stdout(region_to_text(figure, region, frictional));
   outputs.commit();
   return exit_success;

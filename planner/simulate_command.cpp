@@ -150,7 +150,8 @@ SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
 int run_simulate(const SimulateArguments& arguments) {
   Subject subject = read_subject(arguments);
   SampleRequest& request = subject.request;
-  const FigureOutputs outputs(arguments.svg, arguments.json, arguments.scene ? scene_file(*arguments.scene) : arguments.posture);
+  FigureOutputs outputs({{"--svg", arguments.svg}, {"--json", arguments.json}},
+                        arguments.scene ? arguments.scene : arguments.posture);
   if (arguments.sample) {
     if (arguments.svg) throw InputError("--svg: a sample of many runs has no picture");
     if (subject.q || subject.q_rate || subject.heights || subject.heights_rate)
@@ -158,7 +159,7 @@ int run_simulate(const SimulateArguments& arguments) {
     if (!request.contacts.empty() && request.contacts.size() != 2)
       throw InputError("--sample: expected a posture of two contacts");
     const SampleReport report = sample_pushes(request);
-    if (outputs.wants_json()) outputs.put_json(report.json);
+    if (outputs.wants("--json")) outputs.put("--json", report.json);
     if (!outputs.to_stdout()) write_stdout(report.text);
     outputs.commit();
     return exit_success;
@@ -166,13 +167,13 @@ int run_simulate(const SimulateArguments& arguments) {
   if (!request.com) throw InputError("com is missing: expected in the posture, as the scene's start.com, or as --com x,y");
   const HybridBody body(request.contacts, *request.com, request.rho, request.gravity, arguments.linearised);
   const SimulateRecord record = record_run(body, subject);
-  if (outputs.wants_svg()) {
+  if (outputs.wants("--svg")) {
     gaits::MotionFigure figure{record.title, {}, body.contacts(), record.start, record.events};
     figure.result = fmt::format("{} after {:.6g} s, {} collisions", name(record.run.outcome), record.run.time,
                                 record.run.collisions);
-    outputs.put_svg(gaits::to_svg(figure));
+    outputs.put("--svg", gaits::to_svg(figure));
   }
-  if (outputs.wants_json()) outputs.put_json(simulation_to_json(body, record));
+  if (outputs.wants("--json")) outputs.put("--json", simulation_to_json(body, record));
   if (!outputs.to_stdout()) write_stdout(simulation_to_text(body, record));
   outputs.commit();
   return exit_success;

@@ -307,7 +307,7 @@ TEST_CASE("no locale changes what is written", "[plan_text][plan_svg][plan_io]")
   };
   const Scene scene = long_ground();
   const Plan plan = long_walk(scene, 30, 0);
-  const auto all = [&] { return to_text(scene, plan) + to_json(plan) + to_yaml(plan) + to_svg(scene, plan); };
+  const auto all = [&] { return to_text(scene, plan) + to_json(plan) + to_yaml(plan) + to_svg(scene, plan) + to_html(scene, plan); };
   const std::string before = all();
   const std::locale old = std::locale::global(std::locale(std::locale::classic(), new Comma));
   std::setlocale(LC_ALL, "de_DE.UTF-8");  // does nothing where it is not installed

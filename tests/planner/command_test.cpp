@@ -81,6 +81,49 @@ TEST_CASE("A plan that was tampered with does not hold, and check says where", "
   CHECK(place.run("check scene.yaml plan.json").status == 1);
 }
 
+TEST_CASE("A page that plays the plan comes with it, the same whenever it is made", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", with("surefoot: 1", "surefoot: 1\nname: '</script><b>'"));
+  REQUIRE(place.run("plan scene.yaml -q -o plan.json --html plan.html").status == 0);
+  REQUIRE(place.run("plan scene.yaml -q -o again.json --html again.html").status == 0);
+  const std::string page = place.read("plan.html");
+  CHECK(page.starts_with("<!DOCTYPE html>"));
+  CHECK(page == place.read("again.html"));
+  const auto check = place.run("check scene.yaml plan.json --html checked.html --svg checked.svg");
+  CHECK(check.status == 0);
+  CHECK(check.out.starts_with("holds: "));
+  CHECK(place.read("checked.html") == page);
+  CHECK_THAT(place.read("checked.svg"), Catch::Contains("<svg"));
+  const auto on_stdout = place.run("check scene.yaml plan.json --html -");
+  CHECK(on_stdout.status == 0);
+  CHECK(on_stdout.out == page);
+  const std::string plan = place.read("plan.json"), scene_text = place.read("scene.yaml");
+  for (const char* bad : {"--html nowhere/x.html", "--html ./plan.json", "--svg scene.yaml", "--svg - --html -",
+                          "--html .", "--svg x --html ./x"}) {
+    const auto run = place.run(std::string("check scene.yaml plan.json ") + bad);
+    INFO(bad << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.one_error());
+    CHECK(run.out.empty());
+  }
+  CHECK(place.read("plan.json") == plan);
+  CHECK(place.read("scene.yaml") == scene_text);
+  CHECK(place.count() == 7);
+}
+
+TEST_CASE("A plan that does not hold can be looked at with what is wrong with it", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  json plan = json::parse(place.run("plan scene.yaml --format json").out);
+  plan["stances"][1]["com"][1] = 3.0;
+  place.write("plan.json", plan.dump());
+  const auto check = place.run("check scene.yaml plan.json --html plan.html");
+  CHECK(check.status == 1);
+  const std::string first = check.out.substr(0, check.out.find('\n'));
+  REQUIRE(first.starts_with("stance 2: "));
+  CHECK_THAT(place.read("plan.html"), Catch::Contains("\"faults\":[\"" + first + "\""));
+}
+
 TEST_CASE("Without a plan the status says so and no file is touched", "[command]") {
   const Workplace place;
   place.write("scene.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [0.6, 0], [0.6, -9], [5, -9], [5, 0], [6, 0]]"));
@@ -165,7 +208,12 @@ TEST_CASE("Bad usage is one error and status 2", "[command]") {
                                 "plan scene.yaml -o ./scene.yaml",
                                 "plan scene.yaml -o plan.json --svg ./plan.json",
                                 "plan scene.yaml -o plan.json --svg nowhere/plan.svg",
+                                "plan scene.yaml -o plan.json --html nowhere/plan.html",
+                                "plan scene.yaml --html .",
+                                "plan scene.yaml --html scene.yaml",
+                                "plan scene.yaml --svg plan.svg --html ./plan.svg",
                                 "plan scene.yaml --svg -",
+                                "plan scene.yaml --html -",
                                 "plan scene.yaml -q -v",
                                 "check scene.yaml",
                                 "check scene.yaml missing.json",

@@ -1,6 +1,6 @@
 // What the certainty of verdicts costs: random postures by surefoot and by the same code that takes doubles at their
 // word, in turns; least times. Then the share of decisions that needed exact arithmetic. See bench/README.md.
-#include "bench/guard_cost.hpp"
+#include "bench/plain_posture.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "stability/decisions.hpp"
-#include "tests/support/sample_posture.hpp"
 
 namespace {
 
@@ -20,14 +19,7 @@ std::vector<PlainPosture> random_postures(int contacts, std::size_t count) {
   std::vector<PlainPosture> made;
   while (made.size() < count) {
     const auto kind = made.size() % 2 == 0 ? surefoot::testing::Kind::gentle : surefoot::testing::Kind::any;
-    const surefoot::testing::SamplePosture s = sampler.posture(kind, contacts);
-    PlainPosture p{contacts, {}, {}, {}, {}, {}, s.com.x(), s.com.y(), s.rho, s.box.kappa, s.box.nu};
-    for (int i = 0; i < contacts; ++i) {
-      p.x[i] = s.contacts[i].position.x(), p.y[i] = s.contacts[i].position.y();
-      p.nx[i] = s.contacts[i].normal.x(), p.ny[i] = s.contacts[i].normal.y();
-      p.mu[i] = s.contacts[i].friction;
-    }
-    made.push_back(p);
+    made.push_back(surefoot::bench::plain_posture(sampler.posture(kind, contacts)));
   }
   return made;
 }

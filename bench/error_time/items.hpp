@@ -1,0 +1,12 @@
+// Every item of `surefoot bench`, one per file of this folder.
+#pragma once
+
+#include "bench/error_time/item.hpp"
+
+namespace surefoot::bench {
+
+extern const Item verdict_item;
+extern const Item line_item;
+extern const Item hybrid_item;
+
+}  // namespace surefoot::bench

@@ -1,0 +1,17 @@
+#include "bench/error_time/items.hpp"
+
+namespace surefoot::bench {
+
+const Row* Rows::find(const std::string& scenario, const std::string& method, const std::string& parameter) const {
+  for (const Row& row : rows_)
+    if (row.scenario == scenario && row.method == method && (parameter.empty() || row.parameter == parameter))
+      return &row;
+  return nullptr;
+}
+
+const std::vector<const Item*>& items() {
+  static const std::vector<const Item*> all{&verdict_item, &line_item, &hybrid_item};
+  return all;
+}
+
+}  // namespace surefoot::bench

@@ -46,6 +46,9 @@ struct Item {
   std::string (*findings)(const Rows& rows);
 };
 
+/// "1e-6"
+std::string power_of_ten(double value);
+
 /// Every item, in the order of the page.
 const std::vector<const Item*>& items();
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -176,6 +177,7 @@ class Plot {
         canvas_.line({here.x(), low}, {here.x(), high}, {.stroke = colour, .width = 1.2, .opacity = 0.6});
       }
       path.push_back(here);
+      taken_.emplace_back(here - Vector2d(4, 4), here + Vector2d(4, 4));
     }
     if (path.size() > 1) canvas_.polyline(path, {.stroke = colour, .width = 1.6, .opacity = 0.85});
     std::size_t k = 0;
@@ -185,16 +187,31 @@ class Plot {
                          row->time.seconds / item_.time_unit, unit()));
   }
 
-  /// The first and the last accuracy level of a curve in words.
+  /// The first and the last accuracy level of a curve in words, where there is room.
   void ends(const Vector2d& at, const std::string& scenario, std::size_t method) {
     const auto found = points(scenario, method);
     if (found.size() < 2) return;
-    for (const Row* row : {found.front(), found.back()}) {
-      const Vector2d here = place(at, row->time.seconds, row->error);
-      const bool at_right = here.x() > at.x() + 0.8 * panel_width;
-      TextStyle style{9.5, colours[method % colours.size()], at_right ? "end" : "start"};
+    for (const Row* row : {found.front(), found.back()})
+      label(at, place(at, row->time.seconds, row->error), row->parameter, colours[method % colours.size()]);
+  }
+
+  void label(const Vector2d& panel, const Vector2d& point, const std::string& words, const char* colour) {
+    constexpr double size = 9.5, letter = 5.2, gap = 6;
+    const double length = letter * static_cast<double>(words.size());
+    for (const auto& [onward, dy] :
+         {std::pair{true, -5.0}, {false, -5.0}, {true, 12.0}, {false, 12.0}, {true, -16.0}, {true, 23.0}}) {
+      const Vector2d anchor = point + Vector2d(onward ? gap : -gap, dy);
+      Eigen::AlignedBox2d box(Vector2d(onward ? anchor.x() : anchor.x() - length, anchor.y() - size));
+      box.extend(Vector2d(onward ? anchor.x() + length : anchor.x(), anchor.y()));
+      const Eigen::AlignedBox2d frame(panel, panel + Vector2d(panel_width, panel_height));
+      if (!frame.contains(box) ||
+          std::any_of(taken_.begin(), taken_.end(), [&box](const auto& other) { return other.intersects(box); }))
+        continue;
+      taken_.push_back(box);
+      TextStyle style{size, colour, onward ? "start" : "end"};
       style.halo = true;
-      canvas_.text(here + Vector2d(at_right ? -6 : 6, -5), row->parameter, style);
+      canvas_.text(anchor, words, style);
+      return;
     }
   }
 
@@ -236,6 +253,7 @@ class Plot {
   SvgCanvas canvas_;
   Decades time_, error_;
   bool zero_ = false, none_ = false;
+  std::vector<Eigen::AlignedBox2d> taken_;  ///< by markers and labels
 };
 
 }  // namespace

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "bench/error_time/items.hpp"
 
 namespace surefoot::bench {
@@ -9,8 +13,10 @@ const Row* Rows::find(const std::string& scenario, const std::string& method, co
   return nullptr;
 }
 
+std::string power_of_ten(double value) { return fmt::format("1e{}", std::lround(std::log10(value))); }
+
 const std::vector<const Item*>& items() {
-  static const std::vector<const Item*> all{&verdict_item, &line_item, &hybrid_item};
+  static const std::vector<const Item*> all{&verdict_item, &factor_item, &line_item, &region_item, &hybrid_item};
   return all;
 }
 

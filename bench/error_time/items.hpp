@@ -8,6 +8,7 @@ namespace surefoot::bench {
 extern const Item verdict_item;
 extern const Item factor_item;
 extern const Item line_item;
+extern const Item planners_item;
 extern const Item region_item;
 extern const Item hybrid_item;
 

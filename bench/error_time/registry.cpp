@@ -17,7 +17,7 @@ std::string power_of_ten(double value) { return fmt::format("1e{}", std::lround(
 
 const std::vector<const Item*>& items() {
   static const std::vector<const Item*> all{&verdict_item, &factor_item, &line_item,
-                                            &region_item,  &hybrid_item, &planners_item};
+                                            &region_item,  &hybrid_item, &refinement_item, &planners_item};
   return all;
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/bench_command.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/region_command.hpp"
@@ -138,6 +139,11 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   return simulate;
 }
 
+/// Known to the parser for its help and for near misses: run() hands over before anything is parsed.
+void add_bench(CLI::App& app) {
+  app.add_subcommand("bench", "Error against run time: tables (CSV) and plots (SVG); needs surefoot-bench beside this program");
+}
+
 /// What the parser says, with the option or command that may have been meant.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
   std::vector<std::string> commands, options{"--help", "--version"};
@@ -178,10 +184,12 @@ int run(int count, char** words) {
   add_query(app, arguments);
   const CLI::App* region = add_region(app, arguments.region);
   const CLI::App* simulate = add_simulate(app, arguments.simulate);
+  add_bench(app);
   if (count <= 1) {
-    report_error("a command is missing: plan, check, query, region or simulate (surefoot --help tells more)");
+    report_error("a command is missing: plan, check, query, region, simulate or bench (surefoot --help tells more)");
     return exit_bad_input;
   }
+  if (std::string_view(words[1]) == "bench") return run_bench(words + 1);
   try {
     app.parse(count, words);
   } catch (const CLI::CallForHelp&) {

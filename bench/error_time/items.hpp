@@ -9,6 +9,7 @@ extern const Item verdict_item;
 extern const Item factor_item;
 extern const Item line_item;
 extern const Item planners_item;
+extern const Item pruning_item;
 extern const Item refinement_item;
 extern const Item region_item;
 extern const Item hybrid_item;

@@ -19,8 +19,7 @@ using gaits::SvgCanvas;
 using gaits::TextStyle;
 
 // All in pixels.
-constexpr double panel_width = 300, panel_height = 230, left = 58, right = 16, head = 56, above_panel = 34,
-                 below_panel = 46;
+constexpr double left = 58, right = 16, head = 56, above_panel = 34, below_panel = 46;
 constexpr double zero_band = 20;  // between the axis and the line for an error of zero, and above for no answer
 constexpr double key_line = 17, caption_line = 14;
 constexpr int most_columns = 3;
@@ -58,6 +57,8 @@ class Plot {
         methods_(distinct(rows, &Row::method)),
         columns_(cases_.size() == 4 ? 2 : std::min<int>(most_columns, static_cast<int>(cases_.size()))),
         lines_((static_cast<int>(cases_.size()) + columns_ - 1) / columns_),
+        panel_width_(cases_.size() == 1 ? 580 : 300),
+        panel_height_(cases_.size() == 1 ? 330 : 230),
         canvas_(width(), height(), item.what) {
     bool any_time = false, any_error = false;
     for (const Row& row : rows.all()) {
@@ -77,8 +78,8 @@ class Plot {
   }
 
  private:
-  double width() const { return std::max(columns_ * (left + panel_width + right), 660.0); }
-  double cell_height() const { return above_panel + panel_height + below_panel; }
+  double width() const { return std::max(columns_ * (left + panel_width_ + right), 660.0); }
+  double cell_height() const { return above_panel + panel_height_ + below_panel; }
   int key_columns() const { return columns_ == 1 ? 2 : columns_; }
   int key_lines() const { return (static_cast<int>(methods_.size()) + key_columns() - 1) / key_columns(); }
   double height() const {
@@ -106,14 +107,14 @@ class Plot {
 
   Vector2d corner(std::size_t k) const {
     const int column = static_cast<int>(k) % columns_, line = static_cast<int>(k) / columns_;
-    return {left + column * (left + panel_width + right), head + above_panel + line * cell_height()};
+    return {left + column * (left + panel_width_ + right), head + above_panel + line * cell_height()};
   }
   double axis_top() const { return none_ ? zero_band : 0; }
-  double axis_bottom() const { return panel_height - (zero_ ? zero_band : 0); }
+  double axis_bottom() const { return panel_height_ - (zero_ ? zero_band : 0); }
 
   Vector2d place(const Vector2d& at, double seconds, double error) const {
-    const double x = std::clamp(time_.share(seconds / item_.time_unit), 0.0, 1.0) * panel_width;
-    const double y = error == 0          ? panel_height - 0.3 * zero_band
+    const double x = std::clamp(time_.share(seconds / item_.time_unit), 0.0, 1.0) * panel_width_;
+    const double y = error == 0          ? panel_height_ - 0.3 * zero_band
                      : std::isinf(error) ? 0.3 * zero_band
                                          : axis_bottom() - error_.share(error) * (axis_bottom() - axis_top());
     return at + Vector2d(x, y);
@@ -128,22 +129,22 @@ class Plot {
     const int error_step = (error_.high - error_.low + 7) / 8, time_step = (time_.high - time_.low + 7) / 8;
     for (int k = error_.low; k <= error_.high; ++k) {
       const double y = place(at, item_.time_unit, std::pow(10.0, k)).y();
-      canvas_.line({at.x(), y}, {at.x() + panel_width, y}, grid);
+      canvas_.line({at.x(), y}, {at.x() + panel_width_, y}, grid);
       if ((k - error_.low) % error_step == 0) canvas_.text({at.x() - 6, y + 4}, power(k), {11, "#333", "end"});
     }
     for (int k = time_.low; k <= time_.high; ++k) {
-      const double x = at.x() + (k - time_.low) * panel_width / (time_.high - time_.low);
-      canvas_.line({x, at.y()}, {x, at.y() + panel_height}, grid);
+      const double x = at.x() + (k - time_.low) * panel_width_ / (time_.high - time_.low);
+      canvas_.line({x, at.y()}, {x, at.y() + panel_height_}, grid);
       if ((k - time_.low) % time_step == 0)
-        canvas_.text({x, at.y() + panel_height + 15}, power(k), {11, "#333", "middle"});
+        canvas_.text({x, at.y() + panel_height_ + 15}, power(k), {11, "#333", "middle"});
     }
-    canvas_.text({at.x() + 0.5 * panel_width, at.y() + panel_height + 31}, fmt::format("{} [{}]", item_.time, unit()),
+    canvas_.text({at.x() + 0.5 * panel_width_, at.y() + panel_height_ + 31}, fmt::format("{} [{}]", item_.time, unit()),
                  {11, "#555", "middle"});
   }
 
   void special_line(const Vector2d& at, double error, const char* label) {
     const double y = place(at, item_.time_unit, error).y();
-    canvas_.line({at.x(), y}, {at.x() + panel_width, y}, {.stroke = "#999", .width = 1, .dash = "4 3"});
+    canvas_.line({at.x(), y}, {at.x() + panel_width_, y}, {.stroke = "#999", .width = 1, .dash = "4 3"});
     canvas_.text({at.x() - 6, y + 4}, label, {11, "#333", "end"});
   }
 
@@ -153,7 +154,7 @@ class Plot {
     tick_labels(at);
     if (zero_) special_line(at, 0, "none");
     if (none_) special_line(at, INFINITY, "failed");
-    canvas_.rectangle(at, panel_width, panel_height, {.stroke = "#666"});
+    canvas_.rectangle(at, panel_width_, panel_height_, {.stroke = "#666"});
     for (std::size_t m = 0; m < methods_.size(); ++m) curve(at, cases_[k], m);
     // Labels last, above all curves.
     for (std::size_t m = 0; m < methods_.size(); ++m) ends(at, cases_[k], m);
@@ -203,7 +204,7 @@ class Plot {
       const Vector2d anchor = point + Vector2d(onward ? gap : -gap, dy);
       Eigen::AlignedBox2d box(Vector2d(onward ? anchor.x() : anchor.x() - length, anchor.y() - size));
       box.extend(Vector2d(onward ? anchor.x() + length : anchor.x(), anchor.y()));
-      const Eigen::AlignedBox2d frame(panel, panel + Vector2d(panel_width, panel_height));
+      const Eigen::AlignedBox2d frame(panel, panel + Vector2d(panel_width_, panel_height_));
       if (!frame.contains(box) ||
           std::any_of(taken_.begin(), taken_.end(), [&box](const auto& other) { return other.intersects(box); }))
         continue;
@@ -250,6 +251,7 @@ class Plot {
   const Rows& rows_;
   std::vector<std::string> cases_, methods_;
   int columns_, lines_;
+  double panel_width_, panel_height_;  // [px]
   SvgCanvas canvas_;
   Decades time_, error_;
   bool zero_ = false, none_ = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <nlopt.hpp>
 #include <random>
@@ -207,19 +208,22 @@ double by_nlopt(const RefinementTask& task, const std::string& algorithm, int ev
 
 double by_exhaustive_grid(const RefinementTask& task, int n) {
   Window window(task, 1 << 30);
-  Eigen::Vector2d low = window.lower().head<2>(), high = window.upper().head<2>(), best = window.start().head<2>();
-  double greatest = window.legal_least(window.start());
+  const auto dimensions = window.variables();
+  VectorXd low = window.lower(), high = window.upper(), best = window.start();
+  double greatest = window.legal_least(best);
   constexpr double finest = 1e-7;  // [m]
   while ((high - low).maxCoeff() > finest) {
-    const Eigen::Vector2d step = (high - low) / n;
-    for (int i = 0; i <= n; ++i)
-      for (int k = 0; k <= n; ++k) {
-        VectorXd x = window.start();
-        x.head<2>() = low + step.cwiseProduct(Eigen::Vector2d(i, k));
-        if (const double least = window.legal_least(x); least > greatest) greatest = least, best = x.head<2>();
-      }
+    const VectorXd step = (high - low) / n;
+    const auto points = static_cast<std::int64_t>(std::pow(n + 1, dimensions));
+    VectorXd x = low;
+    for (std::int64_t k = 0; k < points; ++k) {
+      std::int64_t digits = k;
+      for (Eigen::Index i = 0; i < dimensions; ++i, digits /= n + 1)
+        x[i] = low[i] + step[i] * static_cast<double>(digits % (n + 1));
+      if (const double least = window.legal_least(x); least > greatest) greatest = least, best = x;
+    }
     low = (best - 3 * step).cwiseMax(low), high = (best + 3 * step).cwiseMin(high);
-    n = std::min(n, 40);
+    n = std::min(n, 20);
   }
   return greatest;
 }

@@ -31,7 +31,7 @@ double by_surefoot(const RefinementTask& task, int evaluations);
 /// t, reach and clearance as constraints), LN_SBPLX, LN_BOBYQA, LN_NELDERMEAD or GN_CRS2_LM (the least factor; broken
 /// rules count as 0).
 double by_nlopt(const RefinementTask& task, const std::string& algorithm, int evaluations);
-/// Every point of a grid of n x n COMs (of a window of one COM, feet where they are), then finer ones around the best.
+/// Every point of a grid with n steps along each variable (few, please), then finer ones around the best.
 double by_exhaustive_grid(const RefinementTask& task, int n);
 
 }  // namespace surefoot::bench

@@ -11,18 +11,7 @@
 
 namespace {
 
-using surefoot::bench::PlainPosture;
-
-/// Random normals, friction, COM: nothing coincides. (Coincidences are what exact arithmetic is for.)
-std::vector<PlainPosture> random_postures(int contacts, std::size_t count) {
-  surefoot::testing::Sampler sampler(31 + static_cast<std::uint64_t>(contacts));
-  std::vector<PlainPosture> made;
-  while (made.size() < count) {
-    const auto kind = made.size() % 2 == 0 ? surefoot::testing::Kind::gentle : surefoot::testing::Kind::any;
-    made.push_back(surefoot::bench::plain_posture(sampler.posture(kind, contacts)));
-  }
-  return made;
-}
+using surefoot::bench::PlainPosture, surefoot::bench::random_plain_postures;
 
 template <class Count>
 double nanoseconds_each(const std::vector<PlainPosture>& postures, Count&& count, std::size_t& robust) {
@@ -35,7 +24,7 @@ double nanoseconds_each(const std::vector<PlainPosture>& postures, Count&& count
 void compare(int contacts) {
   constexpr std::size_t count = 20000;
   constexpr int rounds = 40;
-  const std::vector<PlainPosture> postures = random_postures(contacts, count);
+  const std::vector<PlainPosture> postures = random_plain_postures(contacts, count);
   double guarded = HUGE_VAL, plain = HUGE_VAL;
   std::size_t robust = 0, robust_plain = 0;
   for (int k = 0; k < rounds; ++k) {

@@ -44,6 +44,7 @@ struct Item {
   void (*measure)(Rows& rows, bool quick);
   /// What the rows say, in a few sentences of Markdown.
   std::string (*findings)(const Rows& rows);
+  bool plotted = true;
 };
 
 /// "1e-6"

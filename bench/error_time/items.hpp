@@ -5,6 +5,7 @@
 
 namespace surefoot::bench {
 
+extern const Item targets_item;
 extern const Item verdict_item;
 extern const Item factor_item;
 extern const Item line_item;

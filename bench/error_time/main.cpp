@@ -56,7 +56,7 @@ Measured measured(const Item& item, const fs::path& directory, bool quick) {
   item.measure(result.rows, quick);
   result.seconds = cpu_time(CLOCK_PROCESS_CPUTIME_ID) - begin;
   write(directory / fmt::format("{}.csv", item.name), csv(item, result.rows, quick));
-  write(directory / fmt::format("{}.svg", item.name), work_precision_plot(item, result.rows));
+  if (item.plotted) write(directory / fmt::format("{}.svg", item.name), work_precision_plot(item, result.rows));
   std::cerr << fmt::format("{:.1f} s\n", result.seconds);
   return result;
 }

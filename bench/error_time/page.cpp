@@ -19,9 +19,13 @@ std::string page(const std::vector<Measured>& all, bool quick) {
   double seconds = 0;
   for (const Measured& one : all) {
     const Item& item = *one.item;
-    text += fmt::format(
-        "\n## {}\n\nReference: {}. [Table](figures/error_time/{}.csv).\n\n![{}](figures/error_time/{}.svg)\n\n",
-        item.what, item.reference, item.name, item.what, item.name);
+    const std::string table = fmt::format("[Table](figures/error_time/{}.csv)", item.name);
+    text += fmt::format("\n## {}\n\n", item.what);
+    if (item.plotted)
+      text += fmt::format("Reference: {}. {}.\n\n![{}](figures/error_time/{}.svg)\n\n", item.reference, table,
+                          item.what, item.name);
+    else
+      text += table + ".\n\n";
     text += item.findings(one.rows);
     seconds += one.seconds;
   }

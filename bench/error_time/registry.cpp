@@ -16,8 +16,8 @@ const Row* Rows::find(const std::string& scenario, const std::string& method, co
 std::string power_of_ten(double value) { return fmt::format("1e{}", std::lround(std::log10(value))); }
 
 const std::vector<const Item*>& items() {
-  static const std::vector<const Item*> all{&verdict_item, &factor_item,     &line_item,     &region_item,
-                                            &hybrid_item,  &refinement_item, &planners_item, &pruning_item};
+  static const std::vector<const Item*> all{&verdict_item,    &factor_item,   &line_item,    &region_item, &hybrid_item,
+                                            &refinement_item, &planners_item, &pruning_item, &targets_item};
   return all;
 }
 

@@ -14,6 +14,7 @@ using stability::Contact;
 using stability::ContactMode;
 using stability::ContactState;
 
+constexpr int most_pivots = 1000;  // it runs in circles now and then
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Arm {
@@ -66,6 +67,7 @@ bool GlpkVerdict::positive_slack(int slack) {
   glp_init_smcp(&parameters);
   parameters.msg_lev = GLP_MSG_OFF;
   parameters.tol_bnd = parameters.tol_dj = tolerance_;
+  parameters.it_lim = most_pivots;
   const bool optimal = glp_simplex(problem_, &parameters) == 0 && glp_get_status(problem_) == GLP_OPT;
   return optimal && glp_get_obj_val(problem_) > feasible_above_;
 }

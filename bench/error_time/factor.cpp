@@ -84,7 +84,9 @@ void add(Rows& rows, const Case& given, const char* method, const std::string& p
   for (std::size_t k = 0; k < n; ++k) {
     stability::SafetyFactor found;
     found.value = find(given.postures[k]);
-    double error = testing::compared(given.postures[k].sample, found, given.postures[k].exact).value_error;
+    double error = std::isnan(found.value)
+                       ? INFINITY
+                       : testing::compared(given.postures[k].sample, found, given.postures[k].exact).value_error;
     if (!(error < 1)) error = INFINITY, ++failures;
     if (std::isfinite(error)) greatest = std::max(greatest, error);
     errors.push_back(error);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws every figure of docs/regions.md and writes the table of its numbers. Run from anywhere:
+# Draws every figure of docs/regions.md and docs/frictional.md and writes the tables of their numbers. Run from anywhere:
 #   docs/make_figures.sh [PROGRAM]        default: build/release/bin/surefoot, else ./surefoot
 set -euo pipefail
 
@@ -33,3 +33,23 @@ for posture in "$figures"/postures/*.json; do draw "$(basename "$posture" .json)
 for scene in flat vee ridge; do draw "scene_$scene" "$root/maps/$scene.yaml"; done
 draw scene_stairs_up "$root/maps/stairs_up.yaml"
 cat "$table"
+
+# [OR-H, Fig. 3]: areas in the window, with the greatest of their error estimates.
+frictional=$figures/frictional/areas.md
+{
+  echo "| posture | R_EQ [m²] | kinematic-strong [m²] | clattering converges [m²] | both [m²] | error [m²] |"
+  echo "|---|---|---|---|---|---|"
+} > "$frictional"
+for posture in "$figures"/frictional/*.json; do
+  name=$(basename "$posture" .json)
+  "$program" region --posture "$posture" --window=-2,-2,2,2 --svg "$figures/frictional_$name.svg" |
+    awk -v name="$name" '
+      /R_EQ     balanced/ { whole = $3 }
+      /kinematic-strong/ { strong = $2 }
+      /clattering converges/ { clatters = $4 }
+      /both: frictionally/ { both = $4 }
+      /an estimate/ { error = $4 }
+      END { printf "| %s | %s | %s | %s | %s | %s |\n", name, whole, strong, clatters, both, error }
+    ' >> "$frictional"
+done
+cat "$frictional"

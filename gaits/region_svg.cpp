@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "gaits/svg_canvas.hpp"
-#include "gaits/terrain_picture.hpp"
+#include "gaits/frictional_panel.hpp"
+#include "gaits/stance_picture.hpp"
 
 namespace surefoot::gaits {
 
@@ -18,67 +18,45 @@ using stability::RegionCell;
 
 namespace {
 
-constexpr std::string_view ink = "#222", faint = "#666", robust_fill = "#7fc8a9", robust_edge = "#00684b";
+constexpr std::string_view robust_fill = "#7fc8a9", robust_edge = "#00684b";
 // Light enough for black numbers, told apart by colour-blind eyes; used again from the start where cells are many.
 constexpr std::array<std::string_view, 10> shades{"#f6c98f", "#a9cdea", "#e8b4cf", "#f4ec9a", "#e9a58c",
                                                   "#c7c3e6", "#d2b48c", "#bfd9a0", "#f2d5d5", "#b9d5d8"};
 constexpr double left = 30, top = 110, gap = 26, key_width = 372;  // [px]
-constexpr double widest = 680, tallest = 620, bottom_room = 78;   // [px]
-constexpr double contact_radius = 7.5;  // [px]: the contact's name stands inside
+constexpr double bottom_room = 78;                                // [px]
 constexpr std::size_t most_in_key = 24;
-
-AlignedBox2d bounds_of(const Polyline& points) {
-  AlignedBox2d box;
-  for (const Vector2d& p : points) box.extend(p);
-  return box;
-}
 
 class Picture {
  public:
-  Picture(const RegionFigure& figure, const Region& region)
-      : figure_(figure), region_(region), window_(window()), view_(view()), size_(window_.sizes() * view_.scale),
-        canvas_(left + size_.x() + gap + key_width, top + std::max(size_.y() + bottom_room, key_height()), figure.title) {}
+  Picture(const RegionFigure& figure, const Region& region, const std::optional<stability::FrictionalRegion>& frictional)
+      : figure_(figure), region_(region), stance_(figure, bounds_of(region.equilibrium), {left, top}),
+        window_(stance_.window()), view_(stance_.view()), size_(stance_.size()) {
+    if (frictional) panel_.emplace(figure, *frictional, Vector2d(left, own_height()));
+    const double panel_width = panel_ ? panel_->size().x() : 0;
+    canvas_.emplace(left + std::max(size_.x() + gap + key_width, panel_width),
+                    own_height() + (panel_ ? panel_->size().y() : 0), figure.title);
+  }
 
   std::string draw() {
     heading();
-    canvas_.define_clip("frame", {left, top}, size_.x(), size_.y());
-    canvas_.open_group("figure", "frame");
-    ground();
+    stance_.open_frame(*canvas_, "frame");
+    stance_.ground(*canvas_);
     cells();
     curves();
-    surface();
-    contacts();
+    stance_.surface(*canvas_);
+    stance_.contacts(*canvas_);
     numbers();
-    if (figure_.com) canvas_.circle(view_(*figure_.com), 4, {.fill = "#fff", .stroke = ink, .width = 1.6}, "COM");
-    canvas_.close_group();
-    canvas_.rectangle({left, top}, size_.x(), size_.y(), {.stroke = faint, .width = 0.8});
-    lengths();
+    stance_.com(*canvas_);
+    stance_.close_frame(*canvas_);
+    stance_.lengths(*canvas_, {{figure_.radius_of_gyration, fmt::format("rho = {:.3g} m", figure_.radius_of_gyration)},
+                               {figure_.box.nu, fmt::format("nu = {:.3g} m", figure_.box.nu)}});
     key();
-    return canvas_.finish();
+    if (panel_) panel_->draw(*canvas_);
+    return canvas_->finish();
   }
 
  private:
-  /// All of the region and the contacts; of a region much taller or wider than the stance the part near it.
-  AlignedBox2d window() const {
-    AlignedBox2d feet;
-    for (const auto& contact : figure_.contacts) feet.extend(contact.position);
-    const double unit = std::max({feet.sizes().maxCoeff(), 2 * figure_.radius_of_gyration, 1e-300});
-    AlignedBox2d shown = feet;
-    for (const Vector2d& corner : region_.equilibrium) shown.extend(corner);
-    if (figure_.com) shown.extend(*figure_.com);
-    const Vector2d most = Vector2d::Constant(3 * unit);
-    AlignedBox2d near(feet.min() - most, feet.max() + most);
-    if (!region_.equilibrium.empty() && !near.intersects(bounds_of(region_.equilibrium))) near = shown;
-    shown = shown.intersection(near);
-    const Vector2d room(0.6 * unit, 0.25 * unit);
-    return {shown.min() - room, shown.max() + room};
-  }
-
-  View view() const {
-    const double scale = std::min(widest / window_.sizes().x(), tallest / window_.sizes().y());
-    return {{window_.min().x(), window_.max().y()}, {left, top}, scale};
-  }
-
+  double own_height() const { return top + std::max(size_.y() + bottom_room, key_height()); }
   double key_height() const { return 150 + 34.0 * static_cast<double>(std::min(region_.cells.size(), most_in_key + 1)); }
 
   std::string share(double area) const {
@@ -86,7 +64,7 @@ class Picture {
   }
 
   void heading() {
-    canvas_.text({left, 36}, figure_.title, {.size = 20, .bold = true});
+    canvas_->text({left, 36}, figure_.title, {.size = 20, .bold = true});
     const auto& box = figure_.box;
     std::string words = fmt::format("rho = {:.4g} m, ", figure_.radius_of_gyration);
     if (box.one_wrench() && box.centred())
@@ -96,36 +74,18 @@ class Picture {
     else
       words += fmt::format("W: {} <= {:.4g}, {} <= {:.4g} m", box.centre.p == 0 ? "|p|" : "|p - p0|", box.kappa,
                            box.centre.q == 0 ? "|q|" : "|q - q0|", box.nu);
-    canvas_.text({left, 58}, words, {.size = 13, .colour = faint});
+    canvas_->text({left, 58}, words, {.size = 13, .colour = faint});
     std::string result = region_.empty() ? "No COM can be balanced under every wrench of W."
                                          : fmt::format("{}: {:.5g} m^2.  {}: {:.5g} m^2, {} of it.", equilibrium_name(box),
                                                        region_.equilibrium_area, robust_name(box), region_.robust_area,
                                                        share(region_.robust_area));
-    canvas_.text({left, 79}, result, {.size = 13});
+    canvas_->text({left, 79}, result, {.size = 13});
     std::string more;
     if (region_.window)
       more = fmt::format("Clipped to x {:.4g} .. {:.4g}, y {:.4g} .. {:.4g} m.  ", region_.window->min().x(),
                          region_.window->max().x(), region_.window->min().y(), region_.window->max().y());
     if (!region_.empty() && !window_.contains(bounds_of(region_.equilibrium))) more += "Goes on beyond the picture.";
-    canvas_.text({left, 98}, more, {.size = 12, .colour = faint});
-  }
-
-  void ground() {
-    if (figure_.terrain != nullptr) TerrainPicture(*figure_.terrain).draw_ground(canvas_, view_, window_);
-  }
-
-  void surface() {
-    if (figure_.terrain != nullptr) {
-      TerrainPicture(*figure_.terrain).draw_surface(canvas_, view_, window_);
-      return;
-    }
-    for (const auto& contact : figure_.contacts) {
-      const Vector2d n = contact.normal.stableNormalized(), at = view_(contact.position);
-      const Vector2d along(n.y(), n.x()), into(-n.x(), n.y());  // in pixels, y down
-      canvas_.line(at - 34 * along, at + 34 * along, {.stroke = "#4d4d4d", .width = 2.4});
-      for (int k = -4; k <= 4; ++k)
-        canvas_.line(at + 8.0 * k * along, at + 8.0 * k * along + 7 * into - 5 * along, {.stroke = "#8a8578", .width = 1});
-    }
+    canvas_->text({left, 98}, more, {.size = 12, .colour = faint});
   }
 
   std::string_view shade(std::size_t k) const {
@@ -144,7 +104,7 @@ class Picture {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return extent(a) > extent(b); });
     for (const std::size_t k : order) {
       const std::string_view fill = shade(k);
-      canvas_.polygon(view_(region_.cells[k].rings.front()), {.fill = fill, .stroke = fill, .width = 0.4, .opacity = 0.82}, "cell");
+      canvas_->polygon(view_(region_.cells[k].rings.front()), {.fill = fill, .stroke = fill, .width = 0.4, .opacity = 0.82}, "cell");
     }
   }
 
@@ -152,28 +112,11 @@ class Picture {
     for (const auto& boundary : region_.boundaries) {
       const bool edge = boundary.curve.kind == stability::CurveId::edge;
       if (!edge)
-        canvas_.polyline(view_(boundary.polyline), {.stroke = "#555", .width = 0.9});
+        canvas_->polyline(view_(boundary.polyline), {.stroke = "#555", .width = 0.9});
       else if (boundary.label == "window")
-        canvas_.polyline(view_(boundary.polyline), {.stroke = faint, .width = 1, .dash = "5 4"});
+        canvas_->polyline(view_(boundary.polyline), {.stroke = faint, .width = 1, .dash = "5 4"});
       else
-        canvas_.polyline(view_(boundary.polyline), {.stroke = robust_edge, .width = 1.8});
-    }
-  }
-
-  void contacts() {
-    constexpr double cone = 52;  // [px]
-    for (std::size_t i = 0; i < figure_.contacts.size(); ++i) {
-      const auto& contact = figure_.contacts[i];
-      const Vector2d at = view_(contact.position), n = contact.normal.stableNormalized(), t(n.y(), -n.x());
-      const auto edge = [&](double sign) {
-        const Vector2d c = (n + sign * contact.friction * t).stableNormalized();
-        return Vector2d(at + cone * Vector2d(c.x(), -c.y()));
-      };
-      canvas_.polygon({at, edge(1), edge(-1)}, {.fill = "#999", .opacity = 0.3}, "cone");
-      for (const double sign : {1.0, -1.0}) canvas_.line(at, edge(sign), {.stroke = "#333", .width = 1.1});
-      canvas_.circle(at, contact_radius, {.fill = ink});
-      canvas_.text(at + Vector2d(0, 4), i < figure_.contact_names.size() ? figure_.contact_names[i] : std::to_string(i + 1),
-                   {.size = 11, .colour = "#fff", .anchor = "middle", .bold = true});
+        canvas_->polyline(view_(boundary.polyline), {.stroke = robust_edge, .width = 1.8});
     }
   }
 
@@ -253,49 +196,30 @@ class Picture {
 
   void write(const Number& number) {
     const Vector2d way = number.place - number.at;
-    if (way.norm() > 20) canvas_.line(number.at, number.place - 9 * way.normalized(), {.stroke = faint, .width = 0.7});
-    canvas_.text(number.place + Vector2d(0, 4), std::to_string(number.cell + 1),
+    if (way.norm() > 20) canvas_->line(number.at, number.place - 9 * way.normalized(), {.stroke = faint, .width = 0.7});
+    canvas_->text(number.place + Vector2d(0, 4), std::to_string(number.cell + 1),
                  {.size = 12, .anchor = "middle", .bold = true, .halo = true});
-  }
-
-  /// rho, nu and a scale as lengths below the frame.
-  void lengths() {
-    double x = left;
-    const double y = top + size_.y() + 22;
-    const auto bar = [&](double length, const std::string& words) {
-      const double px = length * view_.scale;
-      if (!(px > 0.5) || px > size_.x()) return;
-      const Paint paint{.stroke = ink, .width = 1.6};
-      canvas_.line({x, y}, {x + px, y}, paint);
-      for (const double end : {x, x + px}) canvas_.line({end, y - 4}, {end, y + 4}, paint);
-      canvas_.text({x, y + 18}, words, {.size = 12});
-      x += std::max(px, 7.0 * static_cast<double>(words.size())) + 24;
-    };
-    const double scale = round_length(110 / view_.scale);
-    bar(scale, fmt::format("{:g} m", scale));
-    bar(figure_.radius_of_gyration, fmt::format("rho = {:.3g} m", figure_.radius_of_gyration));
-    bar(figure_.box.nu, fmt::format("nu = {:.3g} m", figure_.box.nu));
   }
 
   void key() {
     const double x = left + size_.x() + gap;
     double y = top + 14;
-    canvas_.text({x, y}, fmt::format("Cells of {} and what may happen there", equilibrium_name(figure_.box)), {.size = 13, .bold = true});
+    canvas_->text({x, y}, fmt::format("Cells of {} and what may happen there", equilibrium_name(figure_.box)), {.size = 13, .bold = true});
     y += 24;
     for (std::size_t k = 0; k < region_.cells.size(); ++k) {
       const RegionCell& cell = region_.cells[k];
       if (k == most_in_key) {
-        canvas_.text({x, y}, fmt::format("and {} smaller ones", region_.cells.size() - k), {.colour = faint});
+        canvas_->text({x, y}, fmt::format("and {} smaller ones", region_.cells.size() - k), {.colour = faint});
         y += 20;
         break;
       }
-      canvas_.rectangle({x, y - 11}, 20, 14, {.fill = shade(k), .stroke = "#777", .width = 0.6});
-      canvas_.text({x + 28, y}, std::to_string(k + 1), {.bold = true});
+      canvas_->rectangle({x, y - 11}, 20, 14, {.fill = shade(k), .stroke = "#777", .width = 0.6});
+      canvas_->text({x + 28, y}, std::to_string(k + 1), {.bold = true});
       std::string modes;
       for (const auto& mode : cell.modes) modes += (modes.empty() ? "" : " ") + mode.name();
-      canvas_.text({x + 52, y}, modes.empty() ? robust_name(figure_.box) + ": stays at rest" : modes,
+      canvas_->text({x + 52, y}, modes.empty() ? robust_name(figure_.box) + ": stays at rest" : modes,
                    {.size = modes.size() > 34 ? 9.0 : 12.0, .bold = modes.empty()});
-      canvas_.text({x + 52, y + 14}, fmt::format("{:.4g} m^2, {}", cell.area, share(cell.area)), {.size = 10, .colour = faint});
+      canvas_->text({x + 52, y + 14}, fmt::format("{:.4g} m^2, {}", cell.area, share(cell.area)), {.size = 10, .colour = faint});
       y += 34;
     }
     y += 4;
@@ -303,17 +227,19 @@ class Picture {
          {"One letter per contact, in their order:", "F breaks away, R rolls or stays, U slides along +t, W along -t;",
           "t is the contact's normal turned clockwise.", "Black discs: contacts; grey fans: their friction cones.",
           "Green line: where R_SS ends; thin: where a mode begins."}) {
-      canvas_.text({x, y}, words, {.size = 10.5, .colour = faint});
+      canvas_->text({x, y}, words, {.size = 10.5, .colour = faint});
       y += 15;
     }
   }
 
   const RegionFigure& figure_;
   const Region& region_;
+  StancePicture stance_;
   AlignedBox2d window_;
   View view_;
   Vector2d size_;
-  SvgCanvas canvas_;
+  std::optional<FrictionalPanel> panel_;
+  std::optional<SvgCanvas> canvas_;
 };
 
 }  // namespace
@@ -321,6 +247,9 @@ class Picture {
 std::string robust_name(const stability::WrenchBox& box) { return box.one_wrench() ? "R(w)" : "R(W)"; }
 std::string equilibrium_name(const stability::WrenchBox& box) { return box.one_wrench() ? "R_SS(w)" : "R_SS(W)"; }
 
-std::string to_svg(const RegionFigure& figure, const Region& region) { return Picture(figure, region).draw(); }
+std::string to_svg(const RegionFigure& figure, const Region& region,
+                   const std::optional<stability::FrictionalRegion>& frictional) {
+  return Picture(figure, region, frictional).draw();
+}
 
 }  // namespace surefoot::gaits

@@ -4,24 +4,15 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "stability/region.hpp"
-#include "terrain/terrain.hpp"
+#include "gaits/stance_picture.hpp"
+#include "stability/frictional_region.hpp"
 
 namespace surefoot::gaits {
 
-struct RegionFigure {
-  std::string title;
-  const terrain::Terrain* terrain = nullptr;  ///< none: a stroke of ground at each contact
-  std::vector<stability::Contact> contacts;
-  std::vector<std::string> contact_names;  ///< what stands beside each contact
-  double radius_of_gyration = 0;
-  stability::WrenchBox box;
-  std::optional<Eigen::Vector2d> com;  ///< marked, if given
-};
-
-std::string to_svg(const RegionFigure& figure, const stability::Region& region);
+/// Below, where it is given, the regions of frictional stability (frictional_panel.hpp).
+std::string to_svg(const RegionFigure& figure, const stability::Region& region,
+                   const std::optional<stability::FrictionalRegion>& frictional = std::nullopt);
 
 /// "R(W)" or, for a box of one wrench, "R(w)".
 std::string robust_name(const stability::WrenchBox& box);

@@ -18,7 +18,9 @@ double Goal::distance(const Eigen::Vector2d& com) const {
   const auto outside = [](const std::optional<std::pair<double, double>>& interval, double value) {
     return interval ? std::max({interval->first - value, value - interval->second, 0.0}) : 0.0;
   };
-  return std::hypot(outside(com_x, com.x()), outside(com_y, com.y()));
+  const double x = outside(com_x, com.x()), y = outside(com_y, com.y());
+  if (x == 0 || y == 0) return x + y;  // the search asks often, and mostly for one coordinate
+  return std::hypot(x, y);
 }
 
 const std::vector<std::string>& planner_names() {

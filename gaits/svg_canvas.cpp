@@ -88,6 +88,12 @@ void SvgCanvas::define_clip(std::string_view id, const Eigen::Vector2d& corner, 
                        id, px(corner.x()), px(corner.y()), px(width), px(height));
 }
 
+void SvgCanvas::define_hatch(std::string_view id, std::string_view colour) {
+  body_ += fmt::format("<defs><pattern id=\"{}\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
+                       "patternTransform=\"rotate(45)\"><path d=\"M0 0V7\" stroke=\"{}\" stroke-width=\"1.6\"/></pattern></defs>\n",
+                       id, colour);
+}
+
 void SvgCanvas::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Paint& paint) {
   body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"{}/>\n", px(from.x()), px(from.y()), px(to.x()),
                        px(to.y()), attributes(paint));

@@ -38,6 +38,9 @@ class SvgCanvas {
   /// Names a rectangle for open_group to clip to; inside <defs>.
   void define_clip(std::string_view id, const Eigen::Vector2d& corner, double width, double height);
 
+  /// Names a filling of parallel strokes: fill = "url(#id)".
+  void define_hatch(std::string_view id, std::string_view colour);
+
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Paint& paint);
   void polyline(const Polyline& points, const Paint& paint);
   void polygon(const Polyline& points, const Paint& paint, std::string_view css_class = "");

@@ -13,7 +13,7 @@ using terrain::Segment;
 namespace {
 
 // Points of a line, ends included, at which the verdict of the straight-line test is looked at again.
-constexpr int line_samples = 65;
+constexpr int line_samples = 17;
 
 std::string show(const Point& p) { return fmt::format("({:.6g}, {:.6g})", p.x(), p.y()); }
 

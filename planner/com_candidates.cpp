@@ -38,7 +38,12 @@ bool cut(const Polygon& polygon, double x, double& low, double& high) {
 template <class Item>
 void nearest_first(std::vector<Item>& items) {
   const auto nearer = [](const Item& a, const Item& b) { return a.to_goal < b.to_goal; };
-  if (!std::is_sorted(items.begin(), items.end(), nearer)) std::stable_sort(items.begin(), items.end(), nearer);
+  const auto not_farther = [](const Item& a, const Item& b) { return a.to_goal <= b.to_goal; };
+  if (std::is_sorted(items.begin(), items.end(), nearer)) return;
+  if (std::adjacent_find(items.begin(), items.end(), not_farther) == items.end())
+    std::reverse(items.begin(), items.end());
+  else
+    std::stable_sort(items.begin(), items.end(), nearer);
 }
 
 /// The part of a column within reach of a foot.
@@ -123,6 +128,7 @@ void ComCandidates::list_columns(int level, const Polygon& polygon, bool in_goal
   const auto [left, right] = std::minmax_element(polygon.begin(), polygon.end(), by_x);
   const double x_low = left->x(), width = right->x() - x_low;
   const int count = columns_ << level;
+  columns.reserve(columns.size() + static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     const double x = x_low + width * (2 * i + 1) / (2 * count);
     // With a goal of heights, how near a column comes is not known before its COMs are.

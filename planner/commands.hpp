@@ -32,8 +32,10 @@ int run_plan(const PlanArguments& arguments);
 int run_check(const std::string& scene, const std::string& plan);
 /// Lines of `file`, "-" for stdin. With `stats`, stderr tells how the answers were decided.
 int run_query(const std::string& file, bool stats);
+/// Lists the canned scenes (canned_scenes.hpp).
+int run_maps();
 
-/// Loads a scene, "-" from stdin. For a file that does not exist the error names what may have been meant.
+/// Loads a scene: a file, the name of a canned one (canned_scenes.hpp), "-" for stdin.
 gaits::Scene open_scene(const std::string& path);
 /// All of stdin.
 std::string read_stdin();

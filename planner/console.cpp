@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -77,22 +78,41 @@ void write_stdout(std::string_view text) {
   if (fault != 0) throw OutputError(fmt::format("cannot write to standard output: {}", std::strerror(fault)));
 }
 
-void note(std::string_view text) { write_all(STDERR_FILENO, fmt::format("surefoot: {}\n", one_line(text))); }
+void note(std::string_view text) {
+  show_progress("");
+  write_all(STDERR_FILENO, fmt::format("surefoot: {}\n", one_line(text)));
+}
 
 void report_error(std::string_view text) { note(fmt::format("error: {}", text)); }
 
+namespace {
+
+/// A terminal that knows escape sequences.
+bool is_able_terminal(int descriptor) {
+  const char* terminal = std::getenv("TERM");
+  return ::isatty(descriptor) && (terminal == nullptr || std::strcmp(terminal, "dumb") != 0);
+}
+
+/// Columns that a line may take without being wrapped, which could not be wiped again.
+std::size_t columns(int descriptor) {
+  constexpr std::size_t usual = 80;
+  winsize size{};
+  return ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : usual - 1;
+}
+
+}  // namespace
+
 void show_progress(std::string_view text) {
   static bool shown = false;
-  if (!::isatty(STDERR_FILENO) || (text.empty() && !shown)) return;
-  write_all(STDERR_FILENO, fmt::format("\r\x1b[K{}", one_line(text)));
+  if ((text.empty() && !shown) || !is_able_terminal(STDERR_FILENO)) return;
+  write_all(STDERR_FILENO, fmt::format("\r\x1b[K{}", one_line(text).substr(0, columns(STDERR_FILENO))));
   shown = !text.empty();
 }
 
 bool stdout_takes_colour() {
   const char* no_colour = std::getenv("NO_COLOR");
-  const char* terminal = std::getenv("TERM");
   if (no_colour != nullptr && *no_colour != '\0') return false;
-  return ::isatty(STDOUT_FILENO) && (terminal == nullptr || std::strcmp(terminal, "dumb") != 0);
+  return is_able_terminal(STDOUT_FILENO);
 }
 
 std::string one_line(std::string_view text) {

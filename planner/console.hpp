@@ -41,7 +41,8 @@ void note(std::string_view text);
 /// "surefoot: error: text" on stderr, made one line.
 void report_error(std::string_view text);
 
-/// A transient line on stderr where that is a terminal, wiped by the next call; "" only wipes.
+/// A transient line on stderr where that is a terminal (not TERM=dumb), cut to its width, wiped by the next call or
+/// note; "" only wipes.
 void show_progress(std::string_view text);
 
 bool stdout_takes_colour();  ///< a terminal, and neither NO_COLOR nor TERM=dumb

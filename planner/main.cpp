@@ -1,12 +1,14 @@
 // The command line of surefoot: parses arguments, maps everything that goes wrong to one line on stderr and an exit
 // status (commands.hpp).
 #include <fmt/format.h>
+#include <gmp.h>
 #include <nlopt.h>
 #include <ompl/config.h>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 #include <algorithm>
+#include <boost/version.hpp>
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -33,10 +35,11 @@ std::string version() {
   int major = 0, minor = 0, bugfix = 0;
   nlopt_version(&major, &minor, &bugfix);
   return fmt::format(
-      "surefoot {}\nOMPL {}.{}.{}, NLopt {}.{}.{}, Eigen {}.{}.{}, yaml-cpp {}, nlohmann-json {}.{}.{}, CLI11 {}, "
-      "fmt {}.{}.{}",
+      "surefoot {}\nOMPL {}.{}.{}, NLopt {}.{}.{}, Eigen {}.{}.{}, Boost {}.{}.{}, GMP {}, yaml-cpp {}, "
+      "nlohmann-json {}.{}.{}, CLI11 {}, fmt {}.{}.{}",
       SUREFOOT_VERSION, OMPL_MAJOR_VERSION, OMPL_MINOR_VERSION, OMPL_PATCH_VERSION, major, minor, bugfix,
-      EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, SUREFOOT_YAML_CPP_VERSION,
+      EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, BOOST_VERSION / 100000,
+      BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, gmp_version, SUREFOOT_YAML_CPP_VERSION,
       NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION,
       FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
@@ -49,9 +52,11 @@ struct Arguments {
   bool query_stats = false;
 };
 
+constexpr const char* scene_words = "scene file (YAML) or canned scene, - for standard input";
+
 CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   CLI::App* plan = app.add_subcommand("plan", "Plan a gait for a scene, verify it and print it");
-  plan->add_option("SCENE", a.scene, "scene file (YAML), - for standard input")->required();
+  plan->add_option("SCENE", a.scene, scene_words)->required();
   plan->add_option("-o,--output", a.output, "write the plan to FILE (replaced as a whole), - for standard output")
       ->type_name("FILE");
   plan->add_option("--format", a.format, "text, json or yaml (default: by the name of FILE, else text)")
@@ -77,7 +82,7 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
 
 CLI::App* add_check(CLI::App& app, Arguments& a) {
   CLI::App* check = app.add_subcommand("check", "Verify a plan file against a scene, independently of the planner");
-  check->add_option("SCENE", a.check_scene, "scene file (YAML), - for standard input")->required();
+  check->add_option("SCENE", a.check_scene, scene_words)->required();
   check->add_option("PLAN", a.check_plan, "plan file (JSON or YAML), - for standard input")->required();
   check->footer(
       "Exit status: 0 the plan holds, 1 it does not (one line per fault), 2 bad input or usage.\n"
@@ -100,11 +105,13 @@ CLI::App* add_query(CLI::App& app, Arguments& a) {
 
 CLI::App* add_region(CLI::App& app, RegionArguments& a) {
   CLI::App* region = app.add_subcommand("region", "Stability regions of a stance: where the COM may be, and what forbids the rest");
-  region->add_option("SCENE", a.scene, "scene file (YAML), - for standard input");
+  region->add_option("SCENE", a.scene, scene_words);
   region->add_option("--posture", a.posture, "instead of a scene: a query line without com (JSON)")->type_name("FILE");
   region->add_option("--stance", a.stance, "two or three legs that stand (default: the scene's first stance)")
       ->type_name("LEG,LEG");
   region->add_option("--wrench", a.wrench, "one wrench p,q [1, m] instead of the box W")->type_name("P,Q");
+  region->add_option("--restitution", a.restitution, "two contacts: where they are frictionally stable, for this coefficient\n"
+                     "between 0 and 1 (default: that of the scene or posture)")->type_name("E");
   region->add_option("--window", a.window, "clip to this rectangle [m]")->type_name("XMIN,YMIN,XMAX,YMAX");
   region->add_option("--svg", a.svg, "draw it; - for standard output")->type_name("FILE");
   region->add_option("--json", a.json, "cells, areas and boundaries; - for standard output")->type_name("FILE");
@@ -118,6 +125,8 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   CLI::App* simulate = app.add_subcommand("simulate", "Hybrid dynamics of a posture after a push: collisions, slides, rest or not");
   simulate->add_option("POSTURE", a.posture, "a query line of one or two contacts (JSON), - for standard input; may have\n"
                        "restitution, gravity, q, q_rate, heights, heights_rate");
+  simulate->add_option("--scene", a.scene, "instead of a posture: two start feet of a scene (YAML)")->type_name("SCENE");
+  simulate->add_option("--stance", a.stance, "which two (default: the scene's first stance)")->type_name("LEG,LEG");
   simulate->add_option("--restitution", a.restitution, "coefficient of restitution, between 0 and 1")->type_name("E");
   simulate->add_option("--com", a.com, "COM [m]")->type_name("X,Y");
   simulate->add_option("--q", a.q, "start: displacement and turn [m, m, rad]")->type_name("RX,RY,THETA");
@@ -145,14 +154,19 @@ void add_bench(CLI::App& app) {
   app.add_subcommand("bench", "Error against run time: tables (CSV) and plots (SVG); needs surefoot-bench beside this program");
 }
 
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
 /// What the parser says, with the option or command that may have been meant.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
-  std::vector<std::string> commands, options{"--help", "--version"};
-  const CLI::App* chosen = nullptr;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    commands.push_back(command->get_name());
-    if (command->parsed()) chosen = command;
-  }
+  const std::vector<std::string> commands = command_names(app);
+  std::vector<std::string> options{"--help", "--version"};
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  const CLI::App* chosen = parsed.empty() ? nullptr : parsed.front();
   if (chosen == nullptr && count > 1 && words[1][0] != '-') {
     const std::string meant = near_miss(words[1], commands);
     return fmt::format("unknown command '{}'{}; there are {}", words[1],
@@ -186,8 +200,10 @@ int run(int count, char** words) {
   const CLI::App* region = add_region(app, arguments.region);
   const CLI::App* simulate = add_simulate(app, arguments.simulate);
   add_bench(app);
+  const CLI::App* maps = app.add_subcommand("maps", "List the canned scenes: what each exercises");
   if (count <= 1) {
-    report_error("a command is missing: plan, check, query, region, simulate or bench (surefoot --help tells more)");
+    report_error(fmt::format("a command is missing: {} (surefoot --help tells more)",
+                             fmt::join(command_names(app), ", ")));
     return exit_bad_input;
   }
   if (std::string_view(words[1]) == "bench") return run_bench(words + 1);
@@ -207,6 +223,7 @@ int run(int count, char** words) {
   if (check->parsed()) return run_check(arguments.check_scene, arguments.check_plan);
   if (region->parsed()) return run_region(arguments.region);
   if (simulate->parsed()) return run_simulate(arguments.simulate);
+  if (maps->parsed()) return run_maps();
   return run_query(arguments.query_file, arguments.query_stats);
 }
 

@@ -11,6 +11,7 @@
 
 #include "gaits/plan_io.hpp"
 #include "gaits/verifier.hpp"
+#include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/output_file.hpp"
@@ -89,8 +90,9 @@ std::unique_ptr<OutputFile> open_output(const std::optional<std::string>& path, 
 }
 
 Outputs open_outputs(const PlanArguments& arguments) {
-  Outputs outputs{.plan = open_output(arguments.output, arguments.scene),
-                  .svg = open_output(arguments.svg, arguments.scene),
+  const std::string scene = scene_file(arguments.scene);
+  Outputs outputs{.plan = open_output(arguments.output, scene),
+                  .svg = open_output(arguments.svg, scene),
                   .svg_to_stdout = arguments.svg == "-"};
   if (outputs.plan && outputs.svg && outputs.plan->same_as(outputs.svg->path()))
     throw terrain::InputError(fmt::format("{}: both -o and --svg would write this file", outputs.svg->path()));

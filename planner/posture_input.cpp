@@ -20,6 +20,18 @@ Eigen::Vector2d read_point(const Node& node, const char* what) {
   return {items[0].number(what), items[1].number(what)};
 }
 
+double checked_restitution(double e, const std::string& place) {
+  if (!(e > 0 && e < 1))
+    throw InputError(fmt::format("{}: found {}, expected a number between 0 and 1, ends excluded", place, e));
+  return e;
+}
+
+double read_restitution(const Node& node) {
+  const double e = node.positive("restitution");
+  if (e >= 1) node.fail(fmt::format("restitution: found {}, expected a number between 0 and 1, ends excluded", e));
+  return e;
+}
+
 std::vector<stability::Contact> read_contacts(const Node& root, std::size_t least, std::size_t most) {
   const Node& contacts = root.require("contacts", "posture");
   const auto& list = contacts.items("contacts");

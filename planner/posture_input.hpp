@@ -13,6 +13,9 @@ namespace surefoot::planner {
 terrain::Document read_document(const std::string& path);
 /// `contacts` of a posture: `least` to `most` of them.
 std::vector<stability::Contact> read_contacts(const terrain::Node& root, std::size_t least, std::size_t most);
+/// A coefficient of restitution, between 0 and 1; `place` is where it was given.
+double checked_restitution(double e, const std::string& place);
+double read_restitution(const terrain::Node& node);
 /// [x, y]
 Eigen::Vector2d read_point(const terrain::Node& node, const char* what);
 /// "a,b,c" behind an option: `count` numbers as in scenes, whatever the locale.

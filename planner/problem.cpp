@@ -20,6 +20,7 @@ constexpr int goal_samples = 200;        ///< of these, drawn from the goal wher
 constexpr int most_moves = 60;           ///< of the safest of these towards where it is safest
 constexpr std::size_t keep_per_pair = 3; ///< first stances handed to the search per pair of start feet
 constexpr int first_step_tries = 64;     ///< codes tried to see whether a first step exists
+constexpr int climbing_tries = 8;        ///< beside the one that led on before, on the way to where a stance is safest
 constexpr std::uint64_t goal_pairs = 30000;
 constexpr int coms_per_pair = 6;
 
@@ -63,10 +64,15 @@ Node node_of(const gaits::Scene& scene, const gaits::Stance& stance, StepProposa
   return node;
 }
 
-bool has_first_step(StepProposals& proposals, const Node& node) {
+/// `led_on` is the code that led on from the node asked about before: near it, the same mostly leads on again.
+bool has_first_step(StepProposals& proposals, const Node& node, int& led_on, int tries = first_step_tries) {
   Node next;
-  for (int k = 0; k < first_step_tries; ++k)
-    if (proposals.propose(node, spread_code(k), next)) return true;
+  if (proposals.propose(node, spread_code(led_on), next)) return true;
+  for (int k = 0; k < tries; ++k) {
+    if (k == led_on || !proposals.propose(node, spread_code(k), next)) continue;
+    led_on = k;
+    return true;
+  }
   return false;
 }
 
@@ -102,6 +108,7 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   }
   const Polygon in_goal = clip_to_goal(polygon, scene.goal);
   std::vector<std::pair<double, Node>> found;
+  int led_on = 0;
   const auto may_stand = [&](const Vector2d& com) {
     stance.com = com;
     const auto& robot = proposals.robot();
@@ -128,14 +135,15 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
         if (!may_stand(centre + way)) continue;
         const double factor = gaits::safety_factor(scene, oracle, stance.com).value;
         if (!(factor > best.first)) continue;
-        if (const Node node = node_of(scene, stance, proposals); has_first_step(proposals, node)) best = {factor, node};
+        const Node node = node_of(scene, stance, proposals);
+        if (has_first_step(proposals, node, led_on, climbing_tries)) best = {factor, node};
       }
       if (best.second.com == centre) step /= 2;
     }
   };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < found.size() && kept < keep_per_pair; ++i) {
-    if (!has_first_step(proposals, found[i].second)) continue;
+    if (!has_first_step(proposals, found[i].second, led_on)) continue;
     if (kept == 0) make_safest(found[i]);
     choice.nodes.push_back(found[i].second);
     ++kept;

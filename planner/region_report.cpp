@@ -13,6 +13,8 @@ namespace surefoot::planner {
 namespace {
 
 using Tree = nlohmann::ordered_json;
+using stability::FrictionalPart;
+using stability::FrictionalRegion;
 using stability::Region;
 using stability::RegionCell;
 
@@ -102,9 +104,55 @@ void describe_modes(std::string& out, const gaits::RegionFigure& figure, const R
     out += fmt::format("and {} smaller cells (all of them in the JSON)\n", region.cells.size() - most_cells);
 }
 
+Tree part_tree(const stability::FrictionalPart& part) {
+  Tree tree{{"area", part.area}, {"error", part.error}, {"polygons", Tree::array()}};
+  for (const auto& polygon : part.polygons) tree["polygons"].push_back(points(polygon));
+  return tree;
+}
+
+Tree box_tree(const Eigen::AlignedBox2d& box) {
+  if (box.isEmpty()) return nullptr;
+  return {box.min().x(), box.min().y(), box.max().x(), box.max().y()};
+}
+
+Tree frictional_tree(const FrictionalRegion& region) {
+  return {{"restitution", region.restitution},
+          {"window", box_tree(region.window)},
+          {"upward", region.upward},
+          {"equilibrium", box_tree(region.strip)},
+          {"equilibrium_area", region.equilibrium_area()},
+          {"kinematic_strong", part_tree(region.kinematic_strong)},
+          {"clattering", part_tree(region.clattering)},
+          {"stable", part_tree(region.stable)}};
+}
+
+void describe_frictional(std::string& out, const FrictionalRegion& region) {
+  auto put = std::back_inserter(out);
+  fmt::format_to(put, "\nFrictional stability, restitution {:.6g} (gravity alone, within x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g} m)\n",
+                 region.restitution, region.window.min().x(), region.window.max().x(), region.window.min().y(),
+                 region.window.max().y());
+  if (region.strip.isEmpty()) {
+    out += "         no COM there can be balanced\n";
+    return;
+  }
+  const double whole = region.equilibrium_area();
+  double error = 0;
+  const auto line = [&](const char* name, const FrictionalPart& part) {
+    fmt::format_to(put, "{:<37}{}, {} of R_EQ\n", name, area(part.area, part.error), percent(part.area, whole));
+    error = std::max(error, part.error);
+  };
+  fmt::format_to(put, "{:<37}{:.9g} m^2\n", "R_EQ     balanced", whole);
+  line("         kinematic-strong", region.kinematic_strong);
+  line("         clattering converges (10)", region.clattering);
+  line("         both: frictionally stable", region.stable);
+  fmt::format_to(put, "         each to within {:.1g} m^2: an estimate\n", error);
+  if (!region.upward) out += "         the ground does not face upward under both feet: Theorem 3 is silent\n";
+}
+
 }  // namespace
 
-std::string region_to_json(const gaits::RegionFigure& figure, const Region& region) {
+std::string region_to_json(const gaits::RegionFigure& figure, const Region& region,
+                           const std::optional<FrictionalRegion>& frictional) {
   Tree tree;
   tree["surefoot"] = 1;
   tree["posture"] = figure.title;
@@ -125,6 +173,7 @@ std::string region_to_json(const gaits::RegionFigure& figure, const Region& regi
   tree["boundaries"] = Tree::array();
   for (const auto& boundary : region.boundaries)
     tree["boundaries"].push_back({{"label", boundary.label}, {"polyline", points(boundary.polyline)}});
+  if (frictional) tree["frictional"] = frictional_tree(*frictional);
   // Lists of maps one entry to a line.
   std::string out = "{";
   for (auto entry = tree.begin(); entry != tree.end(); ++entry) {
@@ -140,13 +189,15 @@ std::string region_to_json(const gaits::RegionFigure& figure, const Region& regi
   return out + "\n}\n";
 }
 
-std::string region_to_text(const gaits::RegionFigure& figure, const Region& region) {
+std::string region_to_text(const gaits::RegionFigure& figure, const Region& region,
+                           const std::optional<FrictionalRegion>& frictional) {
   std::string out;
   describe_posture(out, figure);
   auto put = std::back_inserter(out);
   out += '\n';
   if (region.empty()) {
     fmt::format_to(put, "{}\n", region.note);
+    if (frictional) describe_frictional(out, *frictional);
     return out;
   }
   fmt::format_to(put, "{:<8} balanced                {}\n", gaits::equilibrium_name(figure.box),
@@ -160,6 +211,7 @@ std::string region_to_text(const gaits::RegionFigure& figure, const Region& regi
                    region.window->max().x(), region.window->min().y(), region.window->max().y());
   if (!region.note.empty()) fmt::format_to(put, "         note: {}\n", region.note);
   describe_modes(out, figure, region);
+  if (frictional) describe_frictional(out, *frictional);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "planner/console.hpp"
 #include "planner/figure_outputs.hpp"
 #include "planner/posture_input.hpp"
+#include "planner/stance_input.hpp"
 
 namespace surefoot::planner {
 namespace {
@@ -46,12 +47,6 @@ double positive(double value, const char* option) {
   return value;
 }
 
-double restitution(double e, const std::string& place) {
-  if (!(e > 0 && e < 1))
-    throw InputError(fmt::format("{}: found {}, expected a number between 0 and 1, ends excluded", place, e));
-  return e;
-}
-
 void read_file(const std::string& path, Subject& subject) {
   const terrain::Document document = read_document(path);
   const Node& root = document.root();
@@ -61,12 +56,7 @@ void read_file(const std::string& path, Subject& subject) {
   subject.request.contacts = read_contacts(root, 1, 2);
   subject.request.rho = root.require("rho", "posture").positive("rho");
   if (const Node* com = root.find("com")) subject.request.com = read_point(*com, "com");
-  if (const Node* e = root.find("restitution")) {
-    const double value = e->positive("restitution");
-    if (value >= 1)
-      e->fail(fmt::format("restitution: found {}, expected a number between 0 and 1, ends excluded", value));
-    subject.request.options.restitution = value;
-  }
+  if (const Node* e = root.find("restitution")) subject.request.options.restitution = read_restitution(*e);
   if (const Node* g = root.find("gravity")) subject.request.gravity = g->positive("gravity");
   if (const Node* q = root.find("q")) subject.q = triple(*q, "q");
   if (const Node* q = root.find("q_rate")) subject.q_rate = triple(*q, "q_rate");
@@ -75,26 +65,41 @@ void read_file(const std::string& path, Subject& subject) {
   subject.title = path == "-" ? "posture" : std::filesystem::path(path).stem().string();
 }
 
+void read_scene(const SimulateArguments& a, Subject& subject) {
+  const gaits::Scene scene = open_scene(*a.scene);
+  const StanceInput stance = read_stance(scene, a.stance);
+  if (stance.legs.size() != 2)
+    throw InputError(fmt::format("--stance: {} legs stand, expected two, for example --stance 1,2", stance.legs.size()));
+  subject.title = stance.title;
+  subject.request.contacts = stance.contacts;
+  subject.request.rho = scene.robot.radius_of_gyration;
+  if (scene.start.com) subject.request.com = *scene.start.com;
+  if (scene.restitution) subject.request.options.restitution = *scene.restitution;
+}
+
 Subject read_subject(const SimulateArguments& a) {
   Subject subject;
   SampleRequest& request = subject.request;
   request.options.restitution = 0;
   request.gravity = earth_gravity;
-  if (!a.posture && !a.sample)
-    throw InputError("nothing to simulate: expected a posture file, or --sample N for random postures");
+  if (!a.posture && !a.scene && !a.sample)
+    throw InputError("nothing to simulate: expected a posture file, --scene SCENE, or --sample N for random postures");
+  if (a.posture && a.scene) throw InputError("a posture and --scene are given; expected one of them");
+  if (a.stance && !a.scene) throw InputError("--stance: only with --scene; a posture is one stance");
   if (a.posture) read_file(*a.posture, subject);
+  if (a.scene) read_scene(a, subject);
   if (a.com) {
     const auto com = read_numbers("--com", *a.com, 2, "x,y");
     request.com = Eigen::Vector2d(com[0], com[1]);
   }
-  if (a.restitution) request.options.restitution = restitution(*a.restitution, "--restitution");
+  if (a.restitution) request.options.restitution = checked_restitution(*a.restitution, "--restitution");
   if (a.gravity) request.gravity = positive(*a.gravity, "--gravity");
   if (const auto given = triple(a.q, "--q", "rx,ry,theta")) subject.q = given;
   if (const auto given = triple(a.q_rate, "--q-rate", "vx,vy,omega")) subject.q_rate = given;
   if (const auto given = triple(a.heights, "--heights", "h1,h2,theta")) subject.heights = given;
   if (const auto given = triple(a.heights_rate, "--heights-rate", "u1,u2,omega")) subject.heights_rate = given;
   if (request.options.restitution == 0)
-    throw InputError("restitution is missing: expected in the posture or as --restitution");
+    throw InputError("restitution is missing: expected in the posture or scene, or as --restitution");
   request.options.time_limit = a.time_limit ? positive(*a.time_limit, "--time-limit") : usual_time_limit;
   if (a.neighbourhood) request.neighbourhood = positive(*a.neighbourhood, "--neighbourhood");
   request.size = a.size ? positive(*a.size, "--size") : usual_size;
@@ -144,7 +149,7 @@ SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
 int run_simulate(const SimulateArguments& arguments) {
   Subject subject = read_subject(arguments);
   SampleRequest& request = subject.request;
-  const FigureOutputs outputs(arguments.svg, arguments.json, arguments.posture);
+  const FigureOutputs outputs(arguments.svg, arguments.json, arguments.scene ? arguments.scene : arguments.posture);
   if (arguments.sample) {
     if (arguments.svg) throw InputError("--svg: a sample of many runs has no picture");
     if (subject.q || subject.q_rate || subject.heights || subject.heights_rate)
@@ -157,7 +162,7 @@ int run_simulate(const SimulateArguments& arguments) {
     outputs.commit();
     return exit_success;
   }
-  if (!request.com) throw InputError("com is missing: expected in the posture or as --com x,y");
+  if (!request.com) throw InputError("com is missing: expected in the posture, as the scene's start.com, or as --com x,y");
   const HybridBody body(request.contacts, *request.com, request.rho, request.gravity, arguments.linearised);
   const SimulateRecord record = record_run(body, subject);
   if (outputs.wants_svg()) {

@@ -12,7 +12,8 @@
 namespace surefoot::planner {
 
 struct SimulateArguments {
-  std::optional<std::string> posture;  ///< file, "-" for stdin; may be left out with `sample`: random postures
+  std::optional<std::string> posture;  ///< file, "-" for stdin; with `sample` both may be left out: random postures
+  std::optional<std::string> scene, stance;  ///< instead: two start feet of a scene, LEG,LEG from 1
   std::optional<std::string> com, q, q_rate, heights, heights_rate;  ///< numbers between commas; override the file's
   std::optional<double> restitution, gravity, neighbourhood, time_limit;
   std::optional<std::string> svg, json;  ///< files; "-" is stdout, which then holds nothing else

@@ -1,5 +1,6 @@
 #include "stability/robust_oracle.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -91,6 +92,7 @@ std::vector<ContactMode> RobustOracle::line_feasible_modes(const Vector2d& from,
 
 std::vector<HalfPlane> RobustOracle::equilibrium_half_planes() const {
   std::vector<HalfPlane> planes;
+  planes.reserve(2 * posture_.facets().size());
   if (posture_.flat_cone()) return {{Vector2d::Zero(), -1}};  // empty
   const Vector2d& origin = posture_.position(0);
   for (const Facet& facet : posture_.facets())
@@ -106,14 +108,18 @@ std::vector<HalfPlane> RobustOracle::equilibrium_half_planes() const {
 
 std::vector<Vector2d> RobustOracle::equilibrium_polygon(const std::vector<Vector2d>& window) const {
   std::vector<Vector2d> polygon = window, kept;
+  kept.reserve(window.size() + 8);  // a half-plane adds at most one vertex
   for (const HalfPlane& plane : equilibrium_half_planes()) {
+    const auto value = [&plane](const Vector2d& at) { return plane.normal.dot(at) + plane.offset; };
+    if (std::all_of(polygon.begin(), polygon.end(), [&](const Vector2d& at) { return value(at) >= 0; })) continue;
     kept.clear();
     for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Vector2d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-      const double va = plane.normal.dot(a) + plane.offset, vb = plane.normal.dot(b) + plane.offset;
+      const Vector2d &a = polygon[k], &b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
+      const double va = value(a), vb = value(b);
       if (va >= 0) kept.push_back(a);
       if ((va >= 0) != (vb >= 0)) kept.push_back(a + (b - a) * (va / (va - vb)));
     }
+    if (kept.size() < 3) return {};
     polygon.swap(kept);
   }
   return polygon.size() < 3 ? std::vector<Vector2d>{} : polygon;

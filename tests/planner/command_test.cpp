@@ -208,7 +208,7 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
   CHECK_THAT(place.run("paln x").err, Catch::Contains("did you mean plan?"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --sede 3").err, Catch::Contains("did you mean --seed?"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --planner RTT").err, Catch::Contains("did you mean \"RRT\"?"));
-  for (const char* name : {"stairs_up", "stairs_up.yaml", "maps/stairs_pu.yaml", "stairsup"})
+  for (const char* name : {"stairs_up.yaml", "maps/stairs_pu.yaml", "stairsup"})
     CHECK_THAT(place.run(std::string("plan ") + name).err, Catch::Contains("did you mean maps/stairs_up.yaml?"));
 }
 

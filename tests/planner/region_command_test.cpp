@@ -122,3 +122,34 @@ TEST_CASE("Improper input is refused on one line with its place", "[region]") {
   refused("--posture level.json --svg a --json a", "both --svg and --json");
   refused("--posture level.json --svg - --json -", "one of them");
 }
+
+TEST_CASE("With a restitution the regions of frictional stability are told, written and drawn", "[region][frictional]") {
+  const Workplace place;
+  // Level ground: clattering converges on a strip of known width (tests/stability/frictional_region_test.cpp).
+  place.write("level.json", level);
+  const auto told = place.run("region --posture level.json --restitution 0.01 --window=-1,-1,2,1 --json out.json --svg out.svg");
+  REQUIRE(told.status == 0);
+  const double theta = (std::cbrt(0.01) + std::cbrt(0.0001)) / 1.01;
+  const double width = 2 * std::sqrt(0.25 - 0.04 - 0.2 * theta / std::sqrt(1 - theta * theta));
+  CHECK(told.out.find("restitution 0.01") != std::string::npos);
+  const json tree = json::parse(place.read("out.json"))["frictional"];
+  CHECK(tree["equilibrium"] == json::array({0, -1, 1, 1}));
+  CHECK(tree["clattering"]["area"].get<double>() == Approx(2 * width).epsilon(1e-5));
+  CHECK(polygon_area(tree["clattering"]["polygons"][0]) == Approx(2 * width).epsilon(1e-2));
+  CHECK(tree["stable"]["area"].get<double>() <= tree["kinematic_strong"]["area"].get<double>());
+  const std::string picture = place.read("out.svg");
+  for (const char* piece : {"class=\"kinematic-strong\"", "class=\"clattering\"", "restitution e = 0.01", "url(#hatch)"})
+    CHECK(picture.find(piece) != std::string::npos);
+  // Without one nothing of it is there.
+  const auto without = place.run("region --posture level.json --json -");
+  CHECK_FALSE(json::parse(without.out).contains("frictional"));
+  // From the posture, and from the scene.
+  place.write("with.json", replaced(level, "\"rho\"", "\"restitution\": 0.02, \"rho\""));
+  CHECK(place.run("region --posture with.json").out.find("restitution 0.02") != std::string::npos);
+  const auto bad = place.run("region --posture level.json --restitution 1");
+  CHECK(bad.status == 2);
+  CHECK(bad.err.find("--restitution: found 1, expected a number between 0 and 1") != std::string::npos);
+  const auto three = place.run("region " SUREFOOT_MAPS "/vee.yaml --stance 1,2,3 --restitution 0.1");
+  CHECK(three.status == 2);
+  CHECK(three.err.find("about two contacts, there are 3") != std::string::npos);
+}

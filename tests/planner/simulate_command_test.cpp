@@ -101,3 +101,28 @@ TEST_CASE("Improper input to simulate ends with one line and status 2", "[simula
   }
   CHECK(place.count() == 2);
 }
+
+TEST_CASE("Two start feet of a scene are simulated like the posture they make", "[simulate]") {
+  const Workplace place;
+  const std::string scene = "simulate --scene " SUREFOOT_MAPS "/vee.yaml --stance 1,3 --com=-0.35,0.1 --q 0,2e-4,1e-4 --json -";
+  const auto from_scene = place.run(scene + " --restitution 0.05");
+  REQUIRE(from_scene.status == 0);
+  // maps/vee.yaml: level start, friction 0.8, feet at -0.5 and -0.2, rho 0.2.
+  place.write("same.json", R"({"contacts": [{"p": [-0.5, 0], "n": [0, 1], "mu": 0.8}, {"p": [-0.2, 0], "n": [0, 1], "mu": 0.8}], )"
+                           R"("rho": 0.2, "com": [-0.35, 0.1], "restitution": 0.05})");
+  const auto posture = place.run("simulate same.json --q 0,2e-4,1e-4 --json -");
+  REQUIRE(posture.status == 0);
+  json one = json::parse(from_scene.out), other = json::parse(posture.out);
+  CHECK(one["outcome"] == other["outcome"]);
+  CHECK(one["events"].size() == other["events"].size());
+  CHECK(one["time"].get<double>() == Approx(other["time"].get<double>()).epsilon(1e-9));
+  const auto heights = place.run(scene);
+  CHECK(heights.status == 2);
+  CHECK(heights.err.find("restitution is missing") != std::string::npos);
+  const auto both = place.run("simulate same.json --scene " SUREFOOT_MAPS "/vee.yaml");
+  CHECK(both.status == 2);
+  CHECK(both.err.find("expected one of them") != std::string::npos);
+  const auto three = place.run("simulate --scene " SUREFOOT_MAPS "/vee.yaml --stance 1,2,3 --restitution 0.1 --com 0,0.5");
+  CHECK(three.status == 2);
+  CHECK(place.run("simulate same.json --stance 1,2").status == 2);
+}

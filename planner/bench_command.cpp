@@ -17,7 +17,8 @@ int run_bench(char** words) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe", fault).parent_path() / "surefoot-bench";
   execv(program.c_str(), words);
   report_error(errno == ENOENT
-                   ? fmt::format("bench: {} is not there; ./surefoot bench builds it (or CMake's preset bench)", program.string())
+                   ? fmt::format("bench: {} is not there; ./surefoot bench builds it (or CMake's preset bench)",
+                                 program.string())
                    : fmt::format("bench: cannot start {}: {}", program.string(), std::strerror(errno)));
   return exit_bad_input;
 }

@@ -13,10 +13,10 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "planner/bench_command.hpp"
+#include "planner/bench_options.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/region_command.hpp"
@@ -48,6 +48,7 @@ struct Arguments {
   PlanArguments plan;
   RegionArguments region;
   SimulateArguments simulate;
+  BenchArguments bench;
   std::string check_scene, check_plan, query_file = "-";
   bool query_stats = false;
 };
@@ -149,11 +150,6 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   return simulate;
 }
 
-/// Known to the parser for its help and for near misses: run() hands over before anything is parsed.
-void add_bench(CLI::App& app) {
-  app.add_subcommand("bench", "Error against run time: tables (CSV) and plots (SVG); needs surefoot-bench beside this program");
-}
-
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -199,14 +195,14 @@ int run(int count, char** words) {
   add_query(app, arguments);
   const CLI::App* region = add_region(app, arguments.region);
   const CLI::App* simulate = add_simulate(app, arguments.simulate);
-  add_bench(app);
+  const CLI::App* bench = app.add_subcommand("bench", bench_description);
+  add_bench_options(*app.get_subcommand("bench"), arguments.bench);
   const CLI::App* maps = app.add_subcommand("maps", "List the canned scenes: what each exercises");
   if (count <= 1) {
     report_error(fmt::format("a command is missing: {} (surefoot --help tells more)",
                              fmt::join(command_names(app), ", ")));
     return exit_bad_input;
   }
-  if (std::string_view(words[1]) == "bench") return run_bench(words + 1);
   try {
     app.parse(count, words);
   } catch (const CLI::CallForHelp&) {
@@ -219,6 +215,7 @@ int run(int count, char** words) {
     report_error(usage_fault(app, fault, count, words));
     return exit_bad_input;
   }
+  if (bench->parsed()) return run_bench(words + 1);
   if (plan->parsed()) return run_plan(arguments.plan);
   if (check->parsed()) return run_check(arguments.check_scene, arguments.check_plan);
   if (region->parsed()) return run_region(arguments.region);

@@ -12,6 +12,7 @@
 #include "bench/error_time/page.hpp"
 #include "bench/error_time/plot.hpp"
 #include "bench/error_time/table.hpp"
+#include "planner/bench_options.hpp"
 #include "terrain/document.hpp"
 
 using namespace surefoot::bench;
@@ -62,20 +63,9 @@ Measured measured(const Item& item, const fs::path& directory, bool quick) {
 }
 
 int run(int count, char** words) {
-  CLI::App app("Error against run time, for every computation that has an error: a table (CSV) and a plot (SVG) each.",
-               "surefoot bench");
-  std::vector<std::string> names;
-  std::string out = "bench_results", docs;
-  bool quick = false, list = false;
-  app.add_option("NAME", names, "items; all if none is named");
-  app.add_option("--out", out, "directory for tables and plots (default: bench_results)")->type_name("DIR");
-  app.add_flag("--quick", quick, "fewer cases and repetitions: under a minute for all");
-  app.add_flag("--list", list, "the items, and nothing else");
-  app.add_option("--docs", docs,
-                 "write error_vs_time.md in this directory as well, tables and plots in figures/error_time below it")
-      ->type_name("DIR");
-  app.footer(
-      "Exit status: 0 done, 2 bad input or usage.\nExample: surefoot bench verdict hybrid --quick --out results");
+  CLI::App app(surefoot::planner::bench_description, "surefoot bench");
+  surefoot::planner::BenchArguments arguments;
+  add_bench_options(app, arguments);
   try {
     app.parse(count, words);
   } catch (const CLI::CallForHelp&) {
@@ -84,20 +74,23 @@ int run(int count, char** words) {
   } catch (const CLI::ParseError& error) {
     return fault(error.what());
   }
-  if (list) {
+  if (arguments.list) {
     for (const Item* item : items()) std::cout << fmt::format("{:<12} {}\n", item->name, item->what);
     return 0;
   }
-  const auto which = chosen(names);
-  const fs::path directory = docs.empty() ? fs::path(out) : fs::path(docs) / "figures" / "error_time";
+  if (!arguments.docs.empty() && !arguments.names.empty())
+    return fault("--docs writes the page of all items: name none");
+  const auto which = chosen(arguments.names);
+  const fs::path directory =
+      arguments.docs.empty() ? fs::path(arguments.out) : fs::path(arguments.docs) / "figures" / "error_time";
   fs::create_directories(directory);
   std::vector<Measured> all;
   for (const Item* item : which) {
-    all.push_back(measured(*item, directory, quick));
+    all.push_back(measured(*item, directory, arguments.quick));
     std::cout << fmt::format("{}\n  reference: {}\n", item->what, item->reference) << item->findings(all.back().rows)
               << std::flush;
   }
-  if (!docs.empty()) write(fs::path(docs) / "error_vs_time.md", page(all, quick));
+  if (!arguments.docs.empty()) write(fs::path(arguments.docs) / "error_vs_time.md", page(all, arguments.quick));
   return 0;
 }
 

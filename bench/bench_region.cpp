@@ -1,12 +1,9 @@
-// Area of R(W): error against time for five methods, as CSV on stdout.
-//   bench_region                  the postures of theory section 9
-//   bench_region --stances [NAME] instead: region_areas to 1e-6 on every stance of docs/regions.md and of the stored plans of
+// Areas of R(W) on many stances. (Error against time, method by method: surefoot-bench region.)
+//   bench_region --stances [NAME] region_areas to 1e-6 on every stance of docs/regions.md and of the stored plans of
 //                                 the canned scenes: times, proved error, rectangles
-//   bench_region --random N       instead: areas of N random postures against grids of oracle calls, within the grids'
+//   bench_region --random N       areas of N random postures against grids of oracle calls, within the grids'
 //                                 error and the stated one; times
-//   bench_region --extremes [N]   instead: the catalogue of extreme postures, every Nth: time and stated error by group
-// Errors are against an integral of the oracle's verdicts (reference_area), which shares nothing with the methods; its
-// own error is in the last column.
+//   bench_region --extremes [N]   the catalogue of extreme postures, every Nth: time and stated error by group
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,7 +11,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -22,7 +18,6 @@
 #include "bench/region_stances.hpp"
 #include "stability/region.hpp"
 #include "tests/support/extreme_cases.hpp"
-#include "tests/support/region_reference.hpp"
 #include "tests/support/sample_posture.hpp"
 
 namespace {
@@ -56,44 +51,6 @@ RegionOptions without_curves(double tolerance) {
   options.curves = false;
   options.area_tolerance = tolerance;
   return options;
-}
-
-void compare(const Stance& stance) {
-  const Region whole = region(stance.contacts, stance.rho, wrenches(stance.box), without_curves(1e-6));
-  const RobustOracle oracle(stance.contacts, stance.rho, stance.box);
-  const double unit = whole.equilibrium_area;
-  const auto reference = surefoot::testing::reference_area(oracle, whole.equilibrium, 1e-9 * unit);
-  const auto box = bounds_of(whole.equilibrium);
-  const auto row = [&](const char* method, double resolution, double ms, const Area& area) {
-    std::printf("%s,%s,%g,%.4f,%.10g,%.2e,%.2e,%.1e\n", stance.name.c_str(), method, resolution, ms, area.value,
-                std::abs(area.value - reference.area) / unit, area.error / unit, reference.error / unit);
-  };
-  std::fflush(stdout);
-  Area area;
-  for (const int n : {30, 100, 300, 1000}) {
-    const double ms = least_time([&] { area = by_grid(oracle, box, n); });
-    row("grid", n, ms, area);
-  }
-  for (const int depth : {4, 6, 8, 10}) {
-    const double ms = least_time([&] { area = by_quadtree(stance, box, depth); });
-    row("quadtree", depth, ms, area);
-  }
-  for (const double tolerance : {1e-3, 1e-5, 1e-6, 1e-8}) {
-    const double ms = least_time([&] {
-      const RegionAreas r = region_areas(stance.contacts, stance.rho, wrenches(stance.box), without_curves(tolerance));
-      area = {r.robust, r.error};
-    });
-    row("subdivision", tolerance, ms, area);
-  }
-  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
-    const double ms = least_time([&] { area = by_sweep(stance, tolerance); });
-    row("sweep alone", tolerance, ms, area);
-  }
-  const double ms = least_time([&] {
-    const Region r = region(stance.contacts, stance.rho, wrenches(stance.box));
-    area = {r.robust_area, r.area_error};
-  });
-  row("region with cells and curves", 1e-6, ms, area);
 }
 
 /// One row for a group of stances; the time of a stance is the least of some runs.
@@ -204,14 +161,6 @@ int main(int count, char** words) {
     stances(count == 3 ? words[2] : nullptr);
     return 0;
   }
-  constexpr double degree = std::numbers::pi / 180;
-  const auto contact = [](double x, double y, double slope) {
-    return Contact{{x, y}, {-std::sin(slope * degree), std::cos(slope * degree)}, 0.5};
-  };
-  const DisturbanceBox box{std::tan(10 * degree), 0.1};
-  std::printf("posture,method,resolution,ms,robust_area,relative_error,own_relative_error,reference_relative_error\n");
-  for (const double rho : {0.25, 0.1, 0.05}) {
-    compare({"uneven rho " + std::to_string(rho).substr(0, 4), {contact(0, 0, -35), contact(1, 0.1, 10)}, rho, box});
-    compare({"vee rho " + std::to_string(rho).substr(0, 4), {contact(0, 0, -30), contact(1, 0, 30)}, rho, box});
-  }
+  std::fprintf(stderr, "usage: bench_region --stances [NAME] | --random N | --extremes [N]\n");
+  return 2;
 }

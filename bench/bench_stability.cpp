@@ -3,52 +3,18 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "bench/glpk_verdict.hpp"
-#include "gaits/plan_io.hpp"
-#include "gaits/rules.hpp"
-#include "gaits/scene.hpp"
-#include "stability/robust_oracle.hpp"
-#include "tests/support/sample_posture.hpp"
+#include "bench/oracle_work.hpp"
 
 namespace {
 
-using surefoot::bench::GlpkVerdict;
+using namespace surefoot::bench;
 using surefoot::stability::RobustOracle;
-using surefoot::testing::Kind;
 using surefoot::testing::SamplePosture;
-using surefoot::testing::Sampler;
-
-constexpr std::size_t batch = 1024;  // postures per pass: more than branch predictors and caches of the first level remember
-
-struct Work {
-  std::vector<SamplePosture> postures;
-  std::vector<Eigen::Vector2d> to;  // far ends of lines, and further COMs
-};
-
-// Random postures of the kinds of the terrain: gentle, any, flat, vee, stairs in turn.
-const Work& work(int contacts) {
-  static std::map<int, Work> cache;
-  Work& made = cache[contacts];
-  if (!made.postures.empty()) return made;
-  Sampler sampler(2024 + static_cast<std::uint64_t>(contacts));
-  constexpr Kind kinds[]{Kind::gentle, Kind::any, Kind::flat, Kind::vee, Kind::stairs};
-  for (std::size_t k = 0; k < batch; ++k) {
-    made.postures.push_back(sampler.posture(kinds[k % 5], contacts));
-    made.to.push_back(sampler.com_near(made.postures.back().contacts));
-  }
-  return made;
-}
-
-std::vector<RobustOracle> oracles(const Work& given) {
-  std::vector<RobustOracle> made;
-  for (const SamplePosture& p : given.postures) made.emplace_back(p.contacts, p.rho, p.box);
-  return made;
-}
 
 /// Calls answer(k) for k = 0, 1, ... round and round; one iteration is one answer.
 template <class Answer>
@@ -89,63 +55,23 @@ void straight_line(benchmark::State& state) {
 
 // Lines whose ends are robust: the ones a planner asks about, and the longest to decide.
 void straight_line_robust_ends(benchmark::State& state) {
-  const Work& given = work(static_cast<int>(state.range(0)));
-  const std::vector<RobustOracle> made = oracles(given);
-  Sampler sampler(7);
-  std::vector<std::size_t> which;
-  std::vector<Eigen::Vector2d> far_end;
-  for (std::size_t k = 0; k < batch; ++k) {
-    const SamplePosture& p = given.postures[k];
-    if (!made[k].robust(p.com)) continue;
-    for (int attempt = 0; attempt < 10; ++attempt) {
-      const Eigen::Vector2d to = sampler.com_near(p.contacts);
-      if (!made[k].robust(to)) continue;
-      which.push_back(k);
-      far_end.push_back(to);
-      break;
-    }
-  }
+  const std::vector<Line> given = lines_between_robust(static_cast<int>(state.range(0)));
   std::size_t certified = 0;
-  for (std::size_t k = 0; k < which.size(); ++k) {
-    certified += made[which[k]].line(given.postures[which[k]].com, far_end[k]).stable();
-  }
-  state.counters["certified"] = static_cast<double>(certified) / static_cast<double>(which.size());
+  for (const Line& t : given) certified += t.oracle.line(t.from, t.to).stable();
+  state.counters["certified"] = static_cast<double>(certified) / static_cast<double>(given.size());
   run(state, [&](std::size_t k) {
-    const std::size_t i = k % which.size();
-    return made[which[i]].line(given.postures[which[i]].com, far_end[i]);
+    const Line& t = given[k % given.size()];
+    return t.oracle.line(t.from, t.to);
   });
 }
 
-struct PlannedTransfer {
-  RobustOracle oracle;
-  Eigen::Vector2d from, to;
-};
-
-// Every transfer of the stored plans of the canned scenes that ask for robust stability.
-const std::vector<PlannedTransfer>& planned_transfers() {
-  static const std::vector<PlannedTransfer> transfers = [] {
-    namespace gaits = surefoot::gaits;
-    std::vector<PlannedTransfer> made;
-    for (const auto& entry : std::filesystem::directory_iterator(SUREFOOT_PLANS)) {
-      const gaits::Scene scene = gaits::load_scene(SUREFOOT_MAPS "/" + entry.path().stem().string() + ".yaml");
-      if (scene.criterion != gaits::Criterion::robust) continue;
-      const gaits::Plan plan = gaits::read_plan(entry.path().string());
-      for (std::size_t k = 0; k < plan.transfers.size(); ++k)
-        made.push_back({gaits::oracle_of(scene, gaits::feet_during(plan.stances[k], plan.transfers[k])),
-                        plan.stances[k].com, plan.stances[k + 1].com});
-    }
-    return made;
-  }();
-  return transfers;
-}
-
 void straight_line_of_plans(benchmark::State& state) {
-  const std::vector<PlannedTransfer>& given = planned_transfers();
+  const std::vector<Line>& given = planned_transfers();
   std::size_t certified = 0;
-  for (const PlannedTransfer& t : given) certified += t.oracle.line(t.from, t.to).stable();
+  for (const Line& t : given) certified += t.oracle.line(t.from, t.to).stable();
   state.counters["certified"] = static_cast<double>(certified) / static_cast<double>(given.size());
   run(state, [&](std::size_t k) {
-    const PlannedTransfer& t = given[k % given.size()];
+    const Line& t = given[k % given.size()];
     return t.oracle.line(t.from, t.to);
   });
 }

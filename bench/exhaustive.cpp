@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "bench/exhaustive_grid.hpp"
+#include "bench/planner_runs.hpp"
 #include "gaits/verifier.hpp"
-#include "planner/search.hpp"
 
 using namespace surefoot;
+using surefoot::bench::planned;
 
 namespace {
 
@@ -27,17 +28,6 @@ std::string value(const gaits::Plan& plan, const std::string& objective) {
   if (objective == "distance") return fmt::format("{:.3f} m", way_of_com(plan));
   if (objective == "safety") return fmt::format("{:.3f} in {} steps", plan.safety_factor, plan.steps());
   return fmt::format("{}", plan.steps());
-}
-
-gaits::Plan planned(const gaits::Scene& scene, const std::string& planner, std::uint32_t seed, double effort,
-                    const std::string& objective) {
-  planner::SearchOptions options;
-  options.planner = planner;
-  options.seed = seed;
-  options.effort = effort;
-  options.objective = objective;
-  options.prove = false;
-  return planner::search(scene, options);
 }
 
 void against_grid(const std::vector<std::string>& scenes, const bench::Grid& grid, const std::string& objective,

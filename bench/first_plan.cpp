@@ -6,53 +6,36 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <string>
 #include <vector>
 
-#include "gaits/verifier.hpp"
-#include "planner/search.hpp"
+#include "bench/planner_runs.hpp"
 
 using namespace surefoot;
 
 namespace {
 
-/// Of this process, all its threads [s].
-double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 double wall_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
+double median_of(const std::vector<double>& values) { return values.empty() ? std::nan("") : bench::median(values); }
 
 struct Row {
   std::vector<double> load, search, verify, whole, wall, steps;  // [ms]
 };
 
-/// One run as `surefoot plan --no-refine --effort 0` goes, without starting and printing. False: no verified plan.
+/// False: no verified plan.
 bool run(const std::string& file, std::uint32_t seed, Row& row) {
-  const double wall = wall_time(), begin = cpu_time();
-  const gaits::Scene scene = gaits::load_scene(file);
-  const double loaded = cpu_time();
-  planner::SearchOptions options;
-  options.seed = seed;
-  options.effort = 0;
-  const gaits::Plan plan = planner::search(scene, options);
-  const double found = cpu_time();
-  const bool holds = plan.status == gaits::Status::solved && gaits::verify(scene, plan).holds();
-  const double end = cpu_time();
-  if (!holds) return false;
-  row.load.push_back(1e3 * (loaded - begin));
-  row.search.push_back(1e3 * (found - loaded));
-  row.verify.push_back(1e3 * (end - found));
-  row.whole.push_back(1e3 * (end - begin));
+  const double wall = wall_time();
+  const auto found = bench::first_plan(file, seed);
+  if (!found) return false;
+  row.load.push_back(1e3 * found->load);
+  row.search.push_back(1e3 * found->search);
+  row.verify.push_back(1e3 * found->verify);
+  row.whole.push_back(1e3 * found->whole());
   row.wall.push_back(1e3 * (wall_time() - wall));
-  row.steps.push_back(plan.steps());
+  row.steps.push_back(found->steps);
   return true;
 }
 
@@ -77,8 +60,8 @@ int main(int count, char** words) {
     const std::string name = file.substr(file.find_last_of('/') + 1);
     const double slowest = row.whole.empty() ? std::nan("") : *std::max_element(row.whole.begin(), row.whole.end());
     fmt::print("| {} | {}/{} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n", name, solved, seeds,
-               median(row.steps), median(row.load), median(row.search), median(row.verify), median(row.whole), slowest,
-               median(row.wall));
+               median_of(row.steps), median_of(row.load), median_of(row.search), median_of(row.verify), median_of(row.whole), slowest,
+               median_of(row.wall));
     std::fflush(stdout);
   }
   return all ? 0 : 1;

@@ -14,8 +14,8 @@ using stability::Contact;
 using stability::ContactMode;
 using stability::ContactState;
 
+constexpr int most_pivots = 1000;  // it runs in circles now and then
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr double slack_tolerance = 1e-8;  // above GLPK's feasibility tolerance on rows of size one
 
 struct Arm {
   Eigen::Vector2d r, n, t;
@@ -32,7 +32,10 @@ const std::vector<ContactMode>& modes_of(std::size_t contacts) {
 
 }  // namespace
 
-GlpkVerdict::GlpkVerdict() : problem_(glp_create_prob()) { glp_term_out(GLP_OFF); }
+GlpkVerdict::GlpkVerdict(double feasible_above, double tolerance)
+    : feasible_above_(feasible_above), tolerance_(tolerance), problem_(glp_create_prob()) {
+  glp_term_out(GLP_OFF);
+}
 GlpkVerdict::~GlpkVerdict() { glp_delete_prob(problem_); }
 
 int GlpkVerdict::column(double low, double high) {
@@ -63,8 +66,10 @@ bool GlpkVerdict::positive_slack(int slack) {
   glp_smcp parameters;
   glp_init_smcp(&parameters);
   parameters.msg_lev = GLP_MSG_OFF;
+  parameters.tol_bnd = parameters.tol_dj = tolerance_;
+  parameters.it_lim = most_pivots;
   const bool optimal = glp_simplex(problem_, &parameters) == 0 && glp_get_status(problem_) == GLP_OPT;
-  return optimal && glp_get_obj_val(problem_) > slack_tolerance;
+  return optimal && glp_get_obj_val(problem_) > feasible_above_;
 }
 
 // sum lambda_k ray_k = (p, 1, q) with lambda_k >= t.

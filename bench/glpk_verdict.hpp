@@ -15,7 +15,8 @@ namespace surefoot::bench {
 
 class GlpkVerdict {
  public:
-  GlpkVerdict();
+  /// A mode is feasible where the slack of its strict rows exceeds `feasible_above`; `tolerance`: the solver's own.
+  explicit GlpkVerdict(double feasible_above = 1e-8, double tolerance = 1e-7);
   ~GlpkVerdict();
   GlpkVerdict(const GlpkVerdict&) = delete;
   GlpkVerdict& operator=(const GlpkVerdict&) = delete;
@@ -32,6 +33,7 @@ class GlpkVerdict {
   void set(int row, int column, double value);
   bool positive_slack(int slack);
 
+  double feasible_above_, tolerance_;
   glp_prob* problem_;
   std::vector<int> rows_, columns_;  // triplets, from index 1 as GLPK counts
   std::vector<double> values_;

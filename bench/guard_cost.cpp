@@ -1,6 +1,6 @@
 // What the certainty of verdicts costs: random postures by surefoot and by the same code that takes doubles at their
 // word, in turns; least times. Then the share of decisions that needed exact arithmetic. See bench/README.md.
-#include "bench/guard_cost.hpp"
+#include "bench/plain_posture.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -8,29 +8,10 @@
 #include <vector>
 
 #include "stability/decisions.hpp"
-#include "tests/support/sample_posture.hpp"
 
 namespace {
 
-using surefoot::bench::PlainPosture;
-
-/// Random normals, friction, COM: nothing coincides. (Coincidences are what exact arithmetic is for.)
-std::vector<PlainPosture> random_postures(int contacts, std::size_t count) {
-  surefoot::testing::Sampler sampler(31 + static_cast<std::uint64_t>(contacts));
-  std::vector<PlainPosture> made;
-  while (made.size() < count) {
-    const auto kind = made.size() % 2 == 0 ? surefoot::testing::Kind::gentle : surefoot::testing::Kind::any;
-    const surefoot::testing::SamplePosture s = sampler.posture(kind, contacts);
-    PlainPosture p{contacts, {}, {}, {}, {}, {}, s.com.x(), s.com.y(), s.rho, s.box.kappa, s.box.nu};
-    for (int i = 0; i < contacts; ++i) {
-      p.x[i] = s.contacts[i].position.x(), p.y[i] = s.contacts[i].position.y();
-      p.nx[i] = s.contacts[i].normal.x(), p.ny[i] = s.contacts[i].normal.y();
-      p.mu[i] = s.contacts[i].friction;
-    }
-    made.push_back(p);
-  }
-  return made;
-}
+using surefoot::bench::PlainPosture, surefoot::bench::random_plain_postures;
 
 template <class Count>
 double nanoseconds_each(const std::vector<PlainPosture>& postures, Count&& count, std::size_t& robust) {
@@ -43,7 +24,7 @@ double nanoseconds_each(const std::vector<PlainPosture>& postures, Count&& count
 void compare(int contacts) {
   constexpr std::size_t count = 20000;
   constexpr int rounds = 40;
-  const std::vector<PlainPosture> postures = random_postures(contacts, count);
+  const std::vector<PlainPosture> postures = random_plain_postures(contacts, count);
   double guarded = HUGE_VAL, plain = HUGE_VAL;
   std::size_t robust = 0, robust_plain = 0;
   for (int k = 0; k < rounds; ++k) {

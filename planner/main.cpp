@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/bench_command.hpp"
+#include "planner/bench_options.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 #include "planner/region_command.hpp"
@@ -48,6 +50,7 @@ struct Arguments {
   RegionArguments region;
   SimulateArguments simulate;
   CheckArguments check;
+  BenchArguments bench;
   std::string query_file = "-";
   std::vector<std::string> validate_scenes;
   bool query_stats = false;
@@ -210,6 +213,8 @@ int run(int count, char** words) {
   add_query(app, arguments);
   const CLI::App* region = add_region(app, arguments.region);
   const CLI::App* simulate = add_simulate(app, arguments.simulate);
+  const CLI::App* bench = app.add_subcommand("bench", bench_description);
+  add_bench_options(*app.get_subcommand("bench"), arguments.bench);
   const CLI::App* maps = app.add_subcommand("maps", "List the canned scenes: what each exercises");
   if (count <= 1) {
     report_error(fmt::format("a command is missing: {} (surefoot --help tells more)",
@@ -228,6 +233,7 @@ int run(int count, char** words) {
     report_error(usage_fault(app, fault, count, words));
     return exit_bad_input;
   }
+  if (bench->parsed()) return run_bench(words + 1);
   if (plan->parsed()) return run_plan(arguments.plan);
   if (check->parsed()) return run_check(arguments.check);
   if (validate->parsed()) return run_validate(arguments.validate_scenes);

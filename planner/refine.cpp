@@ -50,48 +50,6 @@ void admit(std::vector<Cut>& cuts, const std::vector<Cut>& best, const VectorXd&
       if (known.element == cut.element) cut.offset += std::max(0.0, known.at(x) - cut.at(x));
 }
 
-/// Refines one window in place. Returns whether anything changed.
-bool refine_window(const Scene& scene, Plan& plan, const Timeline& timeline, int first, int last, double cap,
-                   const RefineOptions& options) {
-  RefineWindow window(scene, plan, timeline, first, last, cap);
-  RefineModel model = window.model();
-  VectorXd best_x = window.start();
-  RefineWindow::Evaluation best = window.evaluate();
-  if (best.factors.empty() && options.leave_out) return false;
-  add_cuts(model.factors, best.factors);
-  add_cuts(model.clearances, best.clearances);
-  bool changed = false;
-  double radius = first_radius * scene.robot.reach_max;
-  for (int i = 1; i < options.max_evaluations && radius > least_radius * scene.robot.reach_max; ++i) {
-    model.sum_gradient = best.sum_gradient;
-    double gain = 0;
-    const VectorXd x = maximise(model, best_x, best.least, radius, gain);
-    const double sum_gain = best.sum_gradient.dot(x - best_x);
-    if (gain < least_gain * best.least && sum_gain < least_gain * best.sum) {
-      radius *= 0.25;
-      continue;
-    }
-    const bool written = window.write(x);
-    const RefineWindow::Evaluation now = written ? window.evaluate() : best;
-    if (written) {
-      add_cuts(model.factors, now.factors);
-      add_cuts(model.clearances, now.clearances);
-    }
-    if (written && now.in_reach && better(now, best) && window.rules_hold()) {
-      const double kept = now.least - best.least;
-      if (kept > 0.5 * gain) radius = std::min(2 * radius, greatest_radius * scene.robot.reach_max);
-      if (kept < 0.1 * gain) radius *= 0.5;
-      best = now, best_x = x, changed = true;
-    } else {
-      radius *= 0.5;
-      window.write(best_x);
-    }
-    admit(model.factors, best.factors, best_x);
-    admit(model.clearances, best.clearances, best_x);
-  }
-  return changed;
-}
-
 struct Factors {
   std::vector<double> of_com;  // least over the stance and the transfers that touch it, of those that can rise
   double least = std::numeric_limits<double>::infinity();
@@ -151,6 +109,47 @@ std::string why_nothing_can_rise(const Factors& factors) {
 }
 
 }  // namespace
+
+bool refine_window(const Scene& scene, Plan& plan, const Timeline& timeline, int first, int last, double cap,
+                   const RefineOptions& options) {
+  RefineWindow window(scene, plan, timeline, first, last, cap);
+  RefineModel model = window.model();
+  VectorXd best_x = window.start();
+  RefineWindow::Evaluation best = window.evaluate();
+  if (best.factors.empty() && options.leave_out) return false;
+  add_cuts(model.factors, best.factors);
+  add_cuts(model.clearances, best.clearances);
+  bool changed = false;
+  double radius = first_radius * scene.robot.reach_max;
+  for (int i = 1; i < options.max_evaluations && radius > least_radius * scene.robot.reach_max; ++i) {
+    model.sum_gradient = best.sum_gradient;
+    double gain = 0;
+    const VectorXd x = maximise(model, best_x, best.least, radius, gain);
+    const double sum_gain = best.sum_gradient.dot(x - best_x);
+    if (gain < least_gain * best.least && sum_gain < least_gain * best.sum) {
+      radius *= 0.25;
+      continue;
+    }
+    const bool written = window.write(x);
+    const RefineWindow::Evaluation now = written ? window.evaluate() : best;
+    if (written) {
+      add_cuts(model.factors, now.factors);
+      add_cuts(model.clearances, now.clearances);
+    }
+    if (written && now.in_reach && better(now, best) && window.rules_hold()) {
+      const double kept = now.least - best.least;
+      if (kept > 0.5 * gain) radius = std::min(2 * radius, greatest_radius * scene.robot.reach_max);
+      if (kept < 0.1 * gain) radius *= 0.5;
+      best = now, best_x = x, changed = true;
+    } else {
+      radius *= 0.5;
+      window.write(best_x);
+    }
+    admit(model.factors, best.factors, best_x);
+    admit(model.clearances, best.clearances, best_x);
+  }
+  return changed;
+}
 
 Plan refine_unverified(const Scene& scene, const Plan& plan, const RefineOptions& options) {
   if (plan.status != gaits::Status::solved || plan.stances.empty()) return plan;

@@ -33,4 +33,10 @@ gaits::Plan refine(const gaits::Scene& scene, const gaits::Plan& plan, const Ref
 /// The same without the last look of the verifier: for callers that verify what they get, and fall back on `plan`.
 gaits::Plan refine_unverified(const gaits::Scene& scene, const gaits::Plan& plan, const RefineOptions& options = {});
 
+struct Timeline;
+/// The part of it for one window of COMs first..last (RefineWindow), in place: true if anything changed. Factors above
+/// `cap` limit nothing.
+bool refine_window(const gaits::Scene& scene, gaits::Plan& plan, const Timeline& timeline, int first, int last, double cap,
+                   const RefineOptions& options);
+
 }  // namespace surefoot::planner

@@ -62,19 +62,9 @@ double nearest(const Vector2d& from, const Vector2d& to, const Vector2d& foot) {
   return length2 > 0 ? std::clamp((foot - from).dot(line) / length2, 0.0, 1.0) : 0.0;
 }
 
-/// One reach limit of one line and foot: the greatest distance (sign 1) is at an end, the least (sign -1) at the
-/// nearest point, whose derivative is that of the fixed mixture of the ends (envelope theorem).
 void put_reach(Scaled& s, const ReachLimit& limit, int sign, double* value, double* row) {
-  const Vector2d from = limit.from.at(s.x), to = limit.to.at(s.x), foot = limit.foot.at(s.x);
-  const bool far_end = (to - foot).squaredNorm() > (from - foot).squaredNorm();
-  const double lambda = sign < 0 ? nearest(from, to, foot) : far_end ? 1.0 : 0.0;
-  const double bound = sign < 0 ? s.model->reach_min : s.model->reach_max;
-  const Vector2d r = from + lambda * (to - from) - foot;
-  s.gradient.setZero(s.centre.size());
-  limit.from.add_gradient(2 * sign * (1 - lambda) * r, s.gradient);
-  limit.to.add_gradient(2 * sign * lambda * r, s.gradient);
-  limit.foot.add_gradient(-2 * sign * r, s.gradient);
-  s.put(sign * (r.squaredNorm() - bound * bound), 0, 2 * s.model->reach_max * s.radius, value, row);
+  const double excess = limit.excess(sign, sign < 0 ? s.model->reach_min : s.model->reach_max, s.x, s.gradient);
+  s.put(excess, 0, 2 * s.model->reach_max * s.radius, value, row);
 }
 
 void constraints(unsigned, double* values, unsigned n, const double* z, double* rows, void* data) {
@@ -130,6 +120,18 @@ Vector2d MovingPoint::at(const VectorXd& x) const {
 void MovingPoint::add_gradient(const Vector2d& along, Eigen::Ref<VectorXd> gradient) const {
   if (count == 2) gradient.segment<2>(first) += along;
   if (count == 1) gradient[first] += along.dot(direction);
+}
+
+double ReachLimit::excess(int sign, double bound, const VectorXd& x, VectorXd& gradient) const {
+  const Vector2d a = from.at(x), b = to.at(x), standing = foot.at(x);
+  const bool far_end = (b - standing).squaredNorm() > (a - standing).squaredNorm();
+  const double lambda = sign < 0 ? nearest(a, b, standing) : far_end ? 1.0 : 0.0;
+  const Vector2d r = a + lambda * (b - a) - standing;
+  gradient.setZero(x.size());
+  from.add_gradient(2 * sign * (1 - lambda) * r, gradient);
+  to.add_gradient(2 * sign * lambda * r, gradient);
+  foot.add_gradient(-2 * sign * r, gradient);
+  return sign * (r.squaredNorm() - bound * bound);
 }
 
 VectorXd maximise(const RefineModel& model, const VectorXd& centre, double least, double radius, double& gain) {

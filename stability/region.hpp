@@ -13,7 +13,7 @@
 // Why not something else: boundaries are quadratic up to sextic and touch or coincide on flat and symmetric ground,
 // where arrangement packages need exact algebraic numbers and fail or take seconds; the paper's list of silhouette
 // curves is incomplete [theory 8.7]; a quadtree without curves is as sound but its error falls only as one over its cost
-// (bench/bench_region.cpp shows all of them).
+// (bench/error_time/region.cpp shows all of them).
 //
 // Guarantee. `area_error` bounds the error of equilibrium_area and robust_area, `cells_error` the sum over all sets of
 // modes of the error of the area in which just these are feasible: bounds in doubles with their rounding error, not

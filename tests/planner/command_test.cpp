@@ -244,6 +244,21 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
     CHECK_THAT(place.run(std::string("plan ") + name).err, Catch::Contains("did you mean maps/stairs_up.yaml?"));
 }
 
+TEST_CASE("The command bench hands its words to surefoot-bench beside the program, or says what to do", "[command]") {
+  const Workplace place;
+  place.shell("cp '" SUREFOOT_BINARY "' surefoot");
+  const auto alone = place.shell("./surefoot bench verdict");
+  INFO(alone.err);
+  CHECK(alone.status == 2);
+  CHECK(alone.out.empty());
+  CHECK(alone.one_error());
+  CHECK_THAT(alone.err, Catch::Contains("./surefoot bench builds it"));
+  place.write("surefoot-bench", "#!/bin/sh\nprintf '%s|' \"$@\"\nexit 5\n");
+  const auto handed = place.shell("chmod +x surefoot-bench && ./surefoot bench verdict --out 'a b'");
+  CHECK(handed.status == 5);
+  CHECK(handed.out == "verdict|--out|a b|");
+}
+
 TEST_CASE("Help and version go to stdout", "[command]") {
   const Workplace place;
   for (const char* arguments : {"--help", "-h", "plan --help", "check --help", "query --help"}) {

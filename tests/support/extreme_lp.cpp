@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double unbounded = HUGE_VAL, tolerance = 1e-9, feasible_above = 1e-8;
+constexpr double unbounded = HUGE_VAL;
 constexpr int most_pivots = 1000;
 
 std::jmp_buf failed;
@@ -27,6 +27,7 @@ void leave(void*) {
 /// Unknowns and rows of one LP, handed to GLPK at the end. `solve` keeps to plain data: it may be left by longjmp.
 class Program {
  public:
+  explicit Program(double tolerance) : tolerance_(tolerance) {}
   int column(double low, double high) {
     bounds_.push_back({low, high});
     return static_cast<int>(bounds_.size());
@@ -77,7 +78,7 @@ class Program {
     glp_smcp parameters;
     glp_init_smcp(&parameters);
     parameters.msg_lev = GLP_MSG_OFF;
-    parameters.tol_bnd = parameters.tol_dj = tolerance;
+    parameters.tol_bnd = parameters.tol_dj = tolerance_;
     parameters.it_lim = most_pivots;
     const int ended = glp_simplex(problem, &parameters);
     const int status = ended == 0 ? glp_get_status(problem) : GLP_UNDEF;
@@ -93,6 +94,7 @@ class Program {
     double value;
     bool equality;
   };
+  double tolerance_;
   std::vector<Bounds> bounds_;
   std::vector<Right> rows_;
   std::map<std::pair<int, int>, double> entries_;
@@ -106,9 +108,13 @@ struct Arm {
   double moment(const Vector2d& d) const { return r.x() * d.y() - r.y() * d.x(); }
 };
 
+struct Tolerances {
+  double feasible_above, solver;
+};
+
 /// (p, 1, q) = sum lambda_k ray_k with lambda_k >= t.
-bool balances(const std::vector<Arm>& arms, double p, double q, bool& answered) {
-  Program program;
+bool balances(const std::vector<Arm>& arms, double p, double q, const Tolerances& tolerances, bool& answered) {
+  Program program(tolerances.solver);
   const int slack = program.column(-unbounded, 1), rows[3]{program.row(p, true), program.row(1, true), program.row(q, true)};
   for (const Arm& arm : arms) {
     for (const double side : {arm.mu, -arm.mu}) {
@@ -119,11 +125,12 @@ bool balances(const std::vector<Arm>& arms, double p, double q, bool& answered) 
         for (const int column : {lambda, slack}) program.add(rows[k], column, values[k]);
     }
   }
-  return program.greatest(slack, answered) > feasible_above;
+  return program.greatest(slack, answered) > tolerances.feasible_above;
 }
 
-bool feasible(const std::vector<Arm>& arms, const SamplePosture& sample, const ExactMode& mode, bool& answered) {
-  Program program;
+bool feasible(const std::vector<Arm>& arms, const SamplePosture& sample, const ExactMode& mode,
+              const Tolerances& tolerances, bool& answered) {
+  Program program(tolerances.solver);
   const double rho = sample.rho;
   const int slack = program.column(-unbounded, 1);
   const int p = program.column(-sample.box.kappa, sample.box.kappa), q = program.column(-sample.box.nu, sample.box.nu);
@@ -158,12 +165,13 @@ bool feasible(const std::vector<Arm>& arms, const SamplePosture& sample, const E
       case ContactState::slides_against: acceleration(arm.n, false), acceleration(-arm.t, true), force(1); break;
     }
   }
-  return program.greatest(slack, answered) > feasible_above;
+  return program.greatest(slack, answered) > tolerances.feasible_above;
 }
 
 }  // namespace
 
-LpVerdict lp_verdict(const SamplePosture& sample) {
+LpVerdict lp_verdict(const SamplePosture& sample, double feasible_above, double tolerance) {
+  const Tolerances tolerances{feasible_above, tolerance};
   std::vector<Arm> arms;
   for (const Contact& contact : sample.contacts) arms.emplace_back(contact, sample.com);
   bool answered = true;
@@ -171,10 +179,10 @@ LpVerdict lp_verdict(const SamplePosture& sample) {
   verdict.equilibrium = true;
   for (const double p : {-sample.box.kappa, sample.box.kappa})
     for (const double q : {-sample.box.nu, sample.box.nu})
-      verdict.equilibrium = balances(arms, p, q, answered) && verdict.equilibrium;
+      verdict.equilibrium = balances(arms, p, q, tolerances, answered) && verdict.equilibrium;
   const ExactPosture posture(sample);
   for (const ExactMode& mode : posture.modes())
-    if (feasible(arms, sample, mode, answered)) verdict.modes.push_back(mode.mode.name());
+    if (feasible(arms, sample, mode, tolerances, answered)) verdict.modes.push_back(mode.mode.name());
   std::sort(verdict.modes.begin(), verdict.modes.end());
   verdict.robust = verdict.equilibrium && verdict.modes.empty();
   verdict.unanswered = !answered;

@@ -15,6 +15,9 @@ struct PlainVerdict {
   std::vector<std::string> modes;
   bool not_a_number = false;  ///< some row was not finite
 };
-PlainVerdict plain_verdict(const SamplePosture& sample);
+/// In float, double or long double.
+template <class S>
+PlainVerdict plain_verdict_in(const SamplePosture& sample);
+inline PlainVerdict plain_verdict(const SamplePosture& sample) { return plain_verdict_in<double>(sample); }
 
 }  // namespace surefoot::testing

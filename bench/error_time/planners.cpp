@@ -169,17 +169,16 @@ void measure(Rows& rows, bool quick) {
 }
 
 std::string findings(const Rows& rows) {
-  std::string text;
+  std::string text = "Layers (numbers of the others are in the table):\n\n";
   for (const Row& row : rows.all())
     if (row.method.starts_with("Layers") && (row.parameter == "effort 0" || row.parameter == "effort 1"))
-      text += fmt::format("- {}, Layers, {}: {:.3g} s; {}.\n", row.scenario, row.parameter, row.time.seconds, row.note);
-  double best = INFINITY;
+      text += fmt::format("- {}, {}, {:.2g} ms: {}.\n", row.scenario, row.parameter, 1e3 * row.time.seconds, row.note);
+  const Row* best = nullptr;
   for (const Row& row : rows.all())
-    if (row.parameter == "1 s") best = std::min(best, row.error);
-  if (std::isfinite(best))
-    text += fmt::format(
-        "- The best of OMPL's planners with restarts after 1 s on any of these scenes is {:.0f} % above the fewest.\n",
-        100 * best);
+    if (row.parameter == "1 s" && std::isfinite(row.error) && (best == nullptr || row.error < best->error)) best = &row;
+  if (best != nullptr)
+    text += fmt::format("- The others after 1 s, restarts included, are {:.0f} % above the fewest at best ({}, {}).\n",
+                        100 * best->error, best->method, best->scenario);
   return text;
 }
 

@@ -223,9 +223,8 @@ std::string findings(const Rows& rows) {
         same &= row.note.find(all_same) != std::string::npos;
       }
     const auto [least, greatest] = std::minmax_element(ratios.begin(), ratios.end());
-    text += fmt::format(
-        "- {}: time with it over time without it {:.2g} in the median of the scenes ({:.2g} to {:.2g}); answers {}.\n",
-        rule.name, median(ratios), *least, *greatest, same ? "the same throughout" : "NOT all the same");
+    text += fmt::format("- {}: {:.2g} in the median of the scenes ({:.2g} to {:.2g}); answers {}.\n", rule.name,
+                        median(ratios), *least, *greatest, same ? "the same throughout" : "NOT all the same");
   }
   return text +
          "- Without a switch, and so without a row: contact modes that the geometry excludes for every COM (they are "
@@ -243,8 +242,8 @@ std::string findings(const Rows& rows) {
 const Item pruning_item{"pruning",
                         "What is left out: time with each rule over time without it",
                         "the same questions asked with the rule switched off; column note counts equal answers",
-                        "time with the rule over time without (below 1: it saves)",
-                        "time with the rule, all questions of a scene",
+                        "time with over without the rule (below 1: it saves)",
+                        "time with the rule, per scene",
                         1e-3,
                         measure,
                         findings};

@@ -20,7 +20,7 @@ using planner::RefineWindow;
 using planner::Timeline;
 
 /// How far COMs and feet may go from the plan's [relative to reach_max]: beyond, no rule holds.
-constexpr double widest = 0.35;
+constexpr double widest = 0.8;
 
 /// The window as a function that counts its evaluations and keeps the best legal value.
 class Window {

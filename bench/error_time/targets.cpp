@@ -194,7 +194,8 @@ constexpr std::pair<const char*, const char*> reasons[]{
      "contacts) lists the "
      "modes that the contacts allow, all with bounds of their rounding errors; nothing of this can be kept for another "
      "COM"},
-    {"GLPK over surefoot", "the same time, and GLPK does not answer slower than when the target was set"},
+    {"GLPK over surefoot",
+     "the same times; GLPK itself is about as fast here as on the machine that the target was set on"},
     {"robust verdict, same contacts",
      "the target is what the best test of equilibrium alone takes; more than half of the instructions go to the modes "
      "beyond it"},

@@ -117,7 +117,7 @@ CLI::App* add_query(CLI::App& app, Arguments& a) {
       "Exit status: 0 all lines were read, 2 bad input or usage.\n"
       "Example: echo '{\"contacts\": [{\"p\": [0,0], \"n\": [0,1], \"mu\": 0.5}, "
       "{\"p\": [1,0], \"n\": [0,1], \"mu\": 0.5}],\n"
-      "          \"com\": [0.5,0.4], \"rho\": 0.2, \"kappa\": 0.17, \"nu\": 0.1}' | surefoot query");
+      "          \"com\": [0.5,0.4], \"rho\": 0.2, \"kappa\": 0.17, \"nu\": 0.1}' | tr -d '\\n' | surefoot query");
   return query;
 }
 

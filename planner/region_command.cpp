@@ -72,8 +72,9 @@ Subject read_subject(const RegionArguments& arguments) {
   }
   if (arguments.restitution) subject.restitution = checked_restitution(*arguments.restitution, "--restitution");
   if (subject.restitution && subject.figure.contacts.size() != 2)
-    throw InputError(fmt::format("restitution: frictional stability is about two contacts, there are {}",
-                                 subject.figure.contacts.size()));
+    throw InputError(fmt::format("restitution: frictional stability is about two contacts, there are {}{}",
+                                 subject.figure.contacts.size(),
+                                 arguments.scene ? "; expected two legs, for example --stance 1,2" : ""));
   return subject;
 }
 

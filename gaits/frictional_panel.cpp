@@ -25,7 +25,8 @@ AlignedBox2d content(const RegionFigure& figure, const FrictionalRegion& region)
   near = {near.min() - extent, near.max() + extent};
   for (const auto* part : {&region.kinematic_strong, &region.stable})
     for (const auto& polygon : part->polygons) box.extend(bounds_of(polygon));
-  for (const auto& polygon : region.clattering.polygons) box.extend(bounds_of(polygon).intersection(near));
+  for (const auto& polygon : region.clattering.polygons)
+    if (const AlignedBox2d bounds = bounds_of(polygon); bounds.intersects(near)) box.extend(bounds.intersection(near));
   if (!region.strip.isEmpty() && box.isEmpty()) box = region.strip;
   return box;
 }

@@ -68,12 +68,13 @@ void stance_row(const StanceGroup& group) {
   }
   std::sort(ms.begin(), ms.end());
   const auto fast = std::upper_bound(ms.begin(), ms.end(), 1.0) - ms.begin();
-  std::printf("%s,%zu,%.3f,%.3f,%td,%d,%.1e,%d\n", group.name.c_str(), ms.size(), ms[ms.size() / 2], ms.back(), fast, proved,
-              error, rectangles);
+  std::printf("%s,%zu,%.3f,%.3f,%td,%d,%.1e,%d\n", group.name.c_str(), ms.size(), ms[ms.size() / 2], ms.back(), fast,
+              proved, error, rectangles);
 }
 
 void stances(const char* name) {
-  std::printf("posture or scene,stances,median ms,slowest ms,within 1 ms,proved to 1e-6,greatest error,most rectangles\n");
+  std::printf(
+      "posture or scene,stances,median ms,slowest ms,within 1 ms,proved to 1e-6,greatest error,most rectangles\n");
   for (const auto& groups : {drawn_postures(), canned_stances()})
     for (const StanceGroup& group : groups)
       if (name == nullptr || group.name == name) stance_row(group);
@@ -101,8 +102,8 @@ int random_postures(int count) {
     const double off = std::abs(grid.value - r.robust_area), apart = std::abs(areas.robust - r.robust_area);
     if (off <= grid.error + r.area_error && apart <= areas.error + r.area_error) continue;
     ++outside;
-    std::printf("outside: %.6g, grid %.6g +- %.2g, subdivision %.6g +- %.2g: %s\n", r.robust_area, grid.value, grid.error,
-                areas.robust, areas.error, s.json().c_str());
+    std::printf("outside: %.6g, grid %.6g +- %.2g, subdivision %.6g +- %.2g: %s\n", r.robust_area, grid.value,
+                grid.error, areas.robust, areas.error, s.json().c_str());
   }
   const auto times = [](const char* what, std::vector<double>& ms) {
     std::sort(ms.begin(), ms.end());
@@ -111,8 +112,10 @@ int random_postures(int count) {
     std::printf("%s [ms]: median %.3f, mean %.3f, 95 %% %.2f, slowest %.1f\n", what, ms[ms.size() / 2],
                 sum / static_cast<double>(ms.size()), ms[ms.size() * 95 / 100], ms.back());
   };
-  std::printf("%d postures, %d with a region, %d outside of an error, %d with a note; %d of R(W) proved to 1e-6, all cells of %d to 1e-5\n",
-              count, nonempty, outside, noted, proved, cells_proved);
+  std::printf(
+      "%d postures, %d with a region, %d outside of an error, %d with a note; %d of R(W) proved to 1e-6, all cells of "
+      "%d to 1e-5\n",
+      count, nonempty, outside, noted, proved, cells_proved);
   times("areas", areas_ms);
   times("region", region_ms);
   return outside == 0 ? 0 : 1;
@@ -143,7 +146,8 @@ void extremes(std::size_t step) {
     group.error = std::max(group.error, areas.error / areas.equilibrium);
     group.cells_error = std::max(group.cells_error, r.cells_error / r.equilibrium_area);
   }
-  std::printf("group,cases,regions,statements,notes,slowest_areas_ms,slowest_region_ms,greatest_error,greatest_cells_error\n");
+  std::printf(
+      "group,cases,regions,statements,notes,slowest_areas_ms,slowest_region_ms,greatest_error,greatest_cells_error\n");
   for (const auto& [name, group] : groups)
     std::printf("%s,%d,%d,%d,%d,%.2f,%.2f,%.1e,%.1e\n", name.c_str(), group.cases, group.regions, group.statements,
                 group.noted, group.areas_ms, group.region_ms, group.error, group.cells_error);

@@ -125,13 +125,15 @@ struct Target {
   const char *what, *benchmark;
   double nanoseconds;
 };
-constexpr Target targets[]{
-    {"robust verdict, new contacts, 2", "fresh_contacts/2", 80}, {"robust verdict, new contacts, 3", "fresh_contacts/3", 160},
-    {"robust verdict, same contacts, 2", "same_contacts/2", 15}, {"robust verdict, same contacts, 3", "same_contacts/3", 30},
-    {"safety factor and gradient, 2", "safety_factor/2", 300},   {"safety factor and gradient, 3", "safety_factor/3", 600},
-    {"straight line, random, 3", "straight_line/3", 600},
-    {"straight line, transfers of plans", "straight_line_of_plans", 600},
-    {"straight line, random robust ends, 3", "straight_line_robust_ends/3", 600}};
+constexpr Target targets[]{{"robust verdict, new contacts, 2", "fresh_contacts/2", 80},
+                           {"robust verdict, new contacts, 3", "fresh_contacts/3", 160},
+                           {"robust verdict, same contacts, 2", "same_contacts/2", 15},
+                           {"robust verdict, same contacts, 3", "same_contacts/3", 30},
+                           {"safety factor and gradient, 2", "safety_factor/2", 300},
+                           {"safety factor and gradient, 3", "safety_factor/3", 600},
+                           {"straight line, random, 3", "straight_line/3", 600},
+                           {"straight line, transfers of plans", "straight_line_of_plans", 600},
+                           {"straight line, random robust ends, 3", "straight_line_robust_ends/3", 600}};
 
 void print_table(const std::map<std::string, double>& times) {
   std::printf("\n%-36s %12s %12s %8s\n", "work", "target [us]", "time [us]", "ratio");
@@ -142,7 +144,8 @@ void print_table(const std::map<std::string, double>& times) {
                 found->second / target.nanoseconds);
   }
   for (const auto& [contacts, least] : {std::pair{"2", 500}, {"3", 1000}}) {
-    const auto ours = times.find(std::string("fresh_contacts/") + contacts), lp = times.find(std::string("glpk/") + contacts);
+    const auto ours = times.find(std::string("fresh_contacts/") + contacts),
+               lp = times.find(std::string("glpk/") + contacts);
     if (ours == times.end() || lp == times.end()) continue;
     std::printf("GLPK / surefoot, %s contacts: %.1f us / %.3f us = %.0f (target >= %d)\n", contacts, lp->second / 1e3,
                 ours->second / 1e3, lp->second / ours->second, least);

@@ -26,7 +26,8 @@ constexpr double half_length = 0.5, gravity = 9.81, friction = 0.5;
 
 /// The symmetric rod: psi_1 = psi_2 = psi = (L^2 - rho^2) / (L^2 + rho^2).
 stability::HybridBody rod(double psi) {
-  const std::vector<stability::Contact> ends{{{-half_length, 0}, {0, 1}, friction}, {{half_length, 0}, {0, 1}, friction}};
+  const std::vector<stability::Contact> ends{{{-half_length, 0}, {0, 1}, friction},
+                                             {{half_length, 0}, {0, 1}, friction}};
   return {ends, Vector2d::Zero(), half_length * std::sqrt((1 - psi) / (1 + psi)), gravity, true};
 }
 
@@ -36,7 +37,7 @@ double dashed(double e) { return 2 * std::sqrt(e) / (1 + e); }
 /// What came of one push.
 struct Fate {
   bool rest = false, undecided = false, two_contacts = false, one_contact = false;  // its end; the first accumulation
-  double collisions = 0;   // before the first accumulation
+  double collisions = 0;                                                            // before the first accumulation
   double alternating = 0;  // greatest number in a row of them by turns
 };
 
@@ -99,9 +100,10 @@ void print(const char* name, int pushes, double (*low)(double), double (*high)(d
     std::sort(values.begin(), values.end());
     return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
   };
-  fmt::print("| {} | {} | {:.2f} % | {:.2f} % | {:.1f} % | {:.1f} % | {:.0f} | {:.0f} | {:.0f} |\n", name, all.fates.size(),
-             100 * all.share(&Fate::rest), 100 * all.share(&Fate::undecided), 100 * all.share(&Fate::two_contacts),
-             100 * all.share(&Fate::one_contact), quantile(&Fate::collisions, 0.5), quantile(&Fate::collisions, 0.99), quantile(&Fate::alternating, 0.99));
+  fmt::print("| {} | {} | {:.2f} % | {:.2f} % | {:.1f} % | {:.1f} % | {:.0f} | {:.0f} | {:.0f} |\n", name,
+             all.fates.size(), 100 * all.share(&Fate::rest), 100 * all.share(&Fate::undecided),
+             100 * all.share(&Fate::two_contacts), 100 * all.share(&Fate::one_contact),
+             quantile(&Fate::collisions, 0.5), quantile(&Fate::collisions, 0.99), quantile(&Fate::alternating, 0.99));
 }
 
 std::string picture(const std::vector<Cell>& cells, int columns) {
@@ -118,7 +120,8 @@ std::string picture(const std::vector<Cell>& cells, int columns) {
   const double half = 0.5 / columns;
   for (const Cell& cell : cells) {
     const std::string colour = shade(cell.share(&Fate::two_contacts));
-    canvas.rectangle(at(cell.e - half, cell.psi + half), side / columns, side / columns, {.fill = colour, .stroke = colour, .width = 0.3});
+    canvas.rectangle(at(cell.e - half, cell.psi + half), side / columns, side / columns,
+                     {.fill = colour, .stroke = colour, .width = 0.3});
   }
   Polyline threshold, zero_gravity;
   for (int k = 0; k <= 200; ++k) {
@@ -175,8 +178,10 @@ int main(int count, char** words) {
     }
   const auto zero = [](double) { return 0.0; };
   const auto one = [](double) { return 1.0; };
-  fmt::print("| place | pushes | end at rest | undecided | first accumulation at both ends | at one end | collisions before it, median | 99 % | "
-             "by turns in a row, 99 % |\n|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| place | pushes | end at rest | undecided | first accumulation at both ends | at one end | collisions before "
+      "it, median | 99 % | "
+      "by turns in a row, 99 % |\n|---|---|---|---|---|---|---|---|---|\n");
   print("above (10)", samples, stability::clattering_threshold, one, random);
   print("between the curves", samples, dashed, stability::clattering_threshold, random);
   print("below both", samples, zero, dashed, random);

@@ -57,7 +57,8 @@ void row(const gaits::Scene& scene, const gaits::Plan& plan) {
     stability::RegionOptions options;
     options.area_tolerance = 1e-3;
     const auto start = Clock::now();
-    stability::region_areas(contacts, scene.robot.radius_of_gyration, {{}, scene.disturbance.kappa, scene.disturbance.nu}, options);
+    stability::region_areas(contacts, scene.robot.radius_of_gyration,
+                            {{}, scene.disturbance.kappa, scene.disturbance.nu}, options);
     region_us += microseconds_since(start);
     ++regions;
   }

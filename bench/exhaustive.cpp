@@ -41,8 +41,9 @@ void against_grid(const std::vector<std::string>& scenes, const bench::Grid& gri
     const bool holds = optimum.found && gaits::verify(scene, optimum.plan).holds();
     const gaits::Plan plan = planned(scene, "Layers", 1, effort, objective);
     fmt::print("| {} | {}{} | {} | {:.1f} | {} | {:.2f} |\n", scene.name,
-               optimum.found ? value(optimum.plan, objective) : "not found", optimum.found && !holds ? " (REFUSED)" : "",
-               optimum.states, seconds, value(plan, objective), plan.time_s);
+               optimum.found ? value(optimum.plan, objective) : "not found",
+               optimum.found && !holds ? " (REFUSED)" : "", optimum.states, seconds, value(plan, objective),
+               plan.time_s);
     std::fflush(stdout);
   }
 }
@@ -85,7 +86,8 @@ void planners_over_time(const std::vector<std::string>& scenes, int seeds) {
         runs.emplace_back(plan.time_s, solved ? plan.steps() : -1);
         if (solved) times.push_back(1e3 * plan.time_s), steps.push_back(plan.steps());
       }
-      fmt::print("| {} | {} | {}/{} | {:.1f} | {} |", scene.name, planner, times.size(), seeds, median(times), median(steps));
+      fmt::print("| {} | {} | {}/{} | {:.1f} | {} |", scene.name, planner, times.size(), seeds, median(times),
+                 median(steps));
       for (const double limit : limits) {
         double reached = steps_after(runs, limit);
         // Layers betters its own plan instead: the largest effort that ends in time.
@@ -122,8 +124,6 @@ int main(int count, char** words) {
   app.add_flag("--planners", over_time, "planners over time instead");
   app.add_option("--seeds", seeds, "per planner");
   CLI11_PARSE(app, count, words);
-  if (over_time)
-    planners_over_time(scenes, seeds);
-  else
-    against_grid(scenes, grid, objective, effort, most_states);
+  if (over_time) planners_over_time(scenes, seeds);
+  else against_grid(scenes, grid, objective, effort, most_states);
 }

@@ -40,7 +40,8 @@ class GridSearch {
     for (const terrain::Segment& segment : scene.terrain.segments()) {
       const int n = std::max(1, static_cast<int>(std::ceil(segment.length / grid.spacing)));
       for (int i = 0; i < n; ++i)
-        if (const auto foot = scene.terrain.foothold_at(segment.chain, segment.s_begin + segment.length * (i + 0.5) / n))
+        if (const auto foot =
+                scene.terrain.foothold_at(segment.chain, segment.s_begin + segment.length * (i + 0.5) / n))
           feet_.push_back(*foot);
     }
   }
@@ -95,7 +96,8 @@ class GridSearch {
         first.com = com;
         if (gaits::broken_start_rule(scene_, first)) continue;
         Cost cost;
-        if (objective_ == "safety") cost.first = -gaits::safety_factor(scene_, gaits::oracle_of(scene_, first.feet), com).value;
+        if (objective_ == "safety")
+          cost.first = -gaits::safety_factor(scene_, gaits::oracle_of(scene_, first.feet), com).value;
         add({std::min(one, two), std::max(one, two), com, number[free], cost, -1, false});
       }
     }
@@ -133,9 +135,9 @@ class GridSearch {
   }
 
   void add(const State& state) {
-    const auto [at, fresh] = numbers_.try_emplace(
-        {static_cast<double>(state.a), static_cast<double>(state.b), state.com.x(), state.com.y()},
-        static_cast<int>(states_.size()));
+    const auto [at, fresh] =
+        numbers_.try_emplace({static_cast<double>(state.a), static_cast<double>(state.b), state.com.x(), state.com.y()},
+                             static_cast<int>(states_.size()));
     if (fresh) {
       states_.push_back(state);
     } else {

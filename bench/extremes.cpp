@@ -45,22 +45,31 @@ GroupResult total(const Results& results) {
 
 void introduction(std::ostream& out, const GroupResult& sum) {
   out << "# Stiff and extreme cases\n\n"
-         "Made by `extremes docs/extremes.md` (bench/README.md); do not edit. All but the last table is the same on every run.\n\n";
-  out << format("%d postures in which something is extreme, %d of them robustly stable. Each is decided in four ways:\n\n",
-                sum.cases, sum.robust);
-  out << "- **doubles**: the formulas written down in double precision without error bounds (tests/support/extreme_plain.cpp). "
-         "Only parallels and\n  vanishing rows are asked with a tolerance, 1e-12, since without one level ground already fails;\n"
+         "Made by `extremes docs/extremes.md` (bench/README.md); do not edit. All but the last table is the same on "
+         "every run.\n\n";
+  out << format(
+      "%d postures in which something is extreme, %d of them robustly stable. Each is decided in four ways:\n\n",
+      sum.cases, sum.robust);
+  out << "- **doubles**: the formulas written down in double precision without error bounds "
+         "(tests/support/extreme_plain.cpp). "
+         "Only parallels and\n  vanishing rows are asked with a tolerance, 1e-12, since without one level ground "
+         "already fails;\n"
          "- **surefoot**: `RobustOracle`, what `surefoot query` answers;\n"
-         "- **LP**: GLPK in the full unknowns, one program per corner of W and per mode (tests/support/extreme_lp.cpp);\n"
-         "- **exact**: integer arithmetic (tests/support/exact_posture.hpp), which shares no formula with surefoot and is what the "
+         "- **LP**: GLPK in the full unknowns, one program per corner of W and per mode "
+         "(tests/support/extreme_lp.cpp);\n"
+         "- **exact**: integer arithmetic (tests/support/exact_posture.hpp), which shares no formula with surefoot and "
+         "is what the "
          "others are\n  held against.\n\n"
-         "An answer is *wrong* where equilibrium, the set of feasible modes or the robust verdict differs; *unsafe* where it says "
-         "robust and is\nwrong. NaN: some number in a row was not finite. None: the LP solver stopped in an error, ran in circles (1000 "
+         "An answer is *wrong* where equilibrium, the set of feasible modes or the robust verdict differs; *unsafe* "
+         "where it says "
+         "robust and is\nwrong. NaN: some number in a row was not finite. None: the LP solver stopped in an error, ran "
+         "in circles (1000 "
          "pivots) or was given\nnumbers that are not finite.\n\n";
 }
 
 void verdict_table(std::ostream& out, const Results& results, const GroupResult& sum) {
-  out << "## Verdicts\n\n| group | cases | robust | doubles wrong (unsafe) | NaN | LP wrong (unsafe) | none | surefoot wrong |\n"
+  out << "## Verdicts\n\n| group | cases | robust | doubles wrong (unsafe) | NaN | LP wrong (unsafe) | none | surefoot "
+         "wrong |\n"
          "|---|---|---|---|---|---|---|---|\n";
   const auto line = [&](const std::string& name, const GroupResult& g) {
     out << "| " << name
@@ -107,12 +116,14 @@ infinite instead of another of these.
 }
 
 void examples(std::ostream& out, const Results& results) {
-  out << "\n## Telling cases\n\nOf each group the shortest that plain doubles, or else the LP, get wrong. The lines can be given to "
+  out << "\n## Telling cases\n\nOf each group the shortest that plain doubles, or else the LP, get wrong. The lines "
+         "can be given to "
          "`surefoot query`.\n";
   for (const std::string& name : results.order) {
     for (const Telling& telling : results.telling) {
       if (telling.example.group != name) continue;
-      out << "\n**" << name << "** (" << telling.example.name << ")\n```\n" << telling.example.sample.json() << "\n```\n";
+      out << "\n**" << name << "** (" << telling.example.name << ")\n```\n"
+          << telling.example.sample.json() << "\n```\n";
       out << "exact and surefoot: " << telling.exact;
       if (telling.plain != telling.exact) out << "; doubles: " << telling.plain;
       if (telling.lp != telling.exact) out << "; LP: " << telling.lp;

@@ -11,9 +11,9 @@ namespace surefoot::bench {
 
 /// One way to decide, over one group.
 struct Judge {
-  int wrong = 0;         ///< equilibrium, the feasible modes or the robust verdict differ from exact arithmetic
-  int unsafe = 0;        ///< among them: robust where it is not
-  int without = 0;       ///< cases with a number that is not finite, or an LP without an answer
+  int wrong = 0;    ///< equilibrium, the feasible modes or the robust verdict differ from exact arithmetic
+  int unsafe = 0;   ///< among them: robust where it is not
+  int without = 0;  ///< cases with a number that is not finite, or an LP without an answer
   double seconds = 0;
 };
 
@@ -40,7 +40,8 @@ struct Telling {
 struct Results {
   std::vector<std::string> order;
   std::map<std::string, GroupResult> groups;
-  std::vector<Telling> telling;  ///< per group the shortest case that plain doubles get wrong, else that the LP gets wrong
+  std::vector<Telling>
+      telling;  ///< per group the shortest case that plain doubles get wrong, else that the LP gets wrong
 };
 
 Results judged_catalogue();

@@ -67,7 +67,8 @@ void keep_telling(Results& results, const Telling& candidate) {
     if (kept.example.group != candidate.example.group) continue;
     const bool worse = (candidate.plain == candidate.exact) > (kept.plain == kept.exact);
     const bool better = (candidate.plain == candidate.exact) < (kept.plain == kept.exact);
-    if (better || (!worse && candidate.example.sample.json().size() < kept.example.sample.json().size())) kept = candidate;
+    if (better || (!worse && candidate.example.sample.json().size() < kept.example.sample.json().size()))
+      kept = candidate;
     return;
   }
   results.telling.push_back(candidate);

@@ -60,8 +60,8 @@ int main(int count, char** words) {
     const std::string name = file.substr(file.find_last_of('/') + 1);
     const double slowest = row.whole.empty() ? std::nan("") : *std::max_element(row.whole.begin(), row.whole.end());
     fmt::print("| {} | {}/{} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n", name, solved, seeds,
-               median_of(row.steps), median_of(row.load), median_of(row.search), median_of(row.verify), median_of(row.whole), slowest,
-               median_of(row.wall));
+               median_of(row.steps), median_of(row.load), median_of(row.search), median_of(row.verify),
+               median_of(row.whole), slowest, median_of(row.wall));
     std::fflush(stdout);
   }
   return all ? 0 : 1;

@@ -41,8 +41,8 @@ GlpkVerdict::~GlpkVerdict() { glp_delete_prob(problem_); }
 int GlpkVerdict::column(double low, double high) {
   const int index = glp_add_cols(problem_, 1);
   const bool from = std::isfinite(low), to = std::isfinite(high);
-  glp_set_col_bnds(problem_, index, from ? (to ? (low == high ? GLP_FX : GLP_DB) : GLP_LO) : (to ? GLP_UP : GLP_FR), low,
-                   high);
+  glp_set_col_bnds(problem_, index, from ? (to ? (low == high ? GLP_FX : GLP_DB) : GLP_LO) : (to ? GLP_UP : GLP_FR),
+                   low, high);
   return index;
 }
 
@@ -99,7 +99,8 @@ bool GlpkVerdict::feasible(const std::vector<Contact>& contacts, const Eigen::Ve
   glp_erase_prob(problem_);
   rows_.assign(1, 0), columns_.assign(1, 0), values_.assign(1, 0);
   const int p = column(-box.kappa, box.kappa), q = column(-box.nu, box.nu), slack = column(-unbounded, 1);
-  const int ax = column(-unbounded, unbounded), ay = column(-unbounded, unbounded), beta = column(-unbounded, unbounded);
+  const int ax = column(-unbounded, unbounded), ay = column(-unbounded, unbounded),
+            beta = column(-unbounded, unbounded);
   const int x = row(0, true), y = row(-1, true), moment = row(0, true);
   set(x, ax, 1), set(x, p, 1), set(y, ay, 1), set(moment, beta, rho), set(moment, q, 1);
   for (int i = 0; i < mode.contacts; ++i) {

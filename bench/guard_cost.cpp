@@ -31,8 +31,9 @@ void compare(int contacts) {
     guarded = std::min(guarded, nanoseconds_each(postures, surefoot::bench::count_robust, robust));
     plain = std::min(plain, nanoseconds_each(postures, surefoot::bench::count_robust_unguarded, robust_plain));
   }
-  std::printf("%d contacts, %zu random postures (%zu robust, %zu by plain doubles): %.1f ns, plain %.1f ns, ratio %.3f\n",
-              contacts, count, robust, robust_plain, guarded, plain, guarded / plain);
+  std::printf(
+      "%d contacts, %zu random postures (%zu robust, %zu by plain doubles): %.1f ns, plain %.1f ns, ratio %.3f\n",
+      contacts, count, robust, robust_plain, guarded, plain, guarded / plain);
 }
 
 }  // namespace
@@ -42,6 +43,7 @@ int main() {
   const surefoot::stability::Decisions& d = surefoot::stability::decisions;
   const std::uint64_t exactly = d.signs_exactly + d.facets_exactly + d.modes_exactly;
   const std::uint64_t all = d.signs + d.facets + d.modes_by_screen + d.modes_by_rows + d.modes_exactly;
-  std::printf("decisions that needed exact arithmetic: %llu of %llu, share %.2e\n", static_cast<unsigned long long>(exactly),
-              static_cast<unsigned long long>(all), static_cast<double>(exactly) / static_cast<double>(all));
+  std::printf("decisions that needed exact arithmetic: %llu of %llu, share %.2e\n",
+              static_cast<unsigned long long>(exactly), static_cast<unsigned long long>(all),
+              static_cast<double>(exactly) / static_cast<double>(all));
 }

@@ -41,8 +41,8 @@ class Quadtree {
  public:
   Quadtree(const Stance& stance, const AlignedBox2d& box)
       : posture_(stance.contacts, stance.rho), wrenches_{{}, stance.box.kappa, stance.box.nu},
-        modes_(posture_, wrenches_, box.center(), Vector2d::UnitX()), planes_(equilibrium_half_planes(posture_, wrenches_)),
-        half_(0.5 * box.sizes()) {}
+        modes_(posture_, wrenches_, box.center(), Vector2d::UnitX()),
+        planes_(equilibrium_half_planes(posture_, wrenches_)), half_(0.5 * box.sizes()) {}
   Area area(int depth) {
     visit(0, 0, half_.y(), half_.x(), depth);  // modes_ has e_t = x, e_s = -y
     return found_;

@@ -14,7 +14,8 @@ using stability::FrictionalRegion;
 namespace {
 
 constexpr double head = 66, foot = 78, gap = 26, key_width = 372, key_height = 260;  // [px]
-constexpr std::string_view strong_fill = "#a9cdea", strong_edge = "#2b6ca3", hatch_ink = "#8a3d00", stable_edge = "#00684b";
+constexpr std::string_view strong_fill = "#a9cdea", strong_edge = "#2b6ca3", hatch_ink = "#8a3d00",
+                           stable_edge = "#00684b";
 constexpr std::string_view hatch_id = "hatch", hatch_fill = "url(#hatch)";
 
 /// The regions of Theorem 3, and of the clattering region, which is often endless downwards, what is near the feet.
@@ -34,7 +35,8 @@ AlignedBox2d content(const RegionFigure& figure, const FrictionalRegion& region)
 }  // namespace
 
 FrictionalPanel::FrictionalPanel(const RegionFigure& figure, const FrictionalRegion& region, const Vector2d& corner)
-    : figure_(figure), region_(region), corner_(corner), stance_(figure, content(figure, region), corner + Vector2d(0, head)) {}
+    : figure_(figure), region_(region), corner_(corner),
+      stance_(figure, content(figure, region), corner + Vector2d(0, head)) {}
 
 Vector2d FrictionalPanel::size() const {
   return {stance_.size().x() + gap + key_width, head + std::max(stance_.size().y() + foot, key_height)};
@@ -55,13 +57,15 @@ void FrictionalPanel::draw(SvgCanvas& canvas) const {
 }
 
 void FrictionalPanel::heading(SvgCanvas& canvas) const {
-  canvas.text(corner_ + Vector2d(0, 26), fmt::format("Frictional stability, restitution e = {:.4g}", region_.restitution),
+  canvas.text(corner_ + Vector2d(0, 26),
+              fmt::format("Frictional stability, restitution e = {:.4g}", region_.restitution),
               {.size = 16, .bold = true});
   std::string words = "No COM can be balanced under gravity alone.";
   if (!region_.strip.isEmpty())
-    words = fmt::format("Areas within x {:.4g} .. {:.4g}, y {:.4g} .. {:.4g} m.{}", region_.window.min().x(),
-                        region_.window.max().x(), region_.window.min().y(), region_.window.max().y(),
-                        region_.upward ? "" : "  The ground does not face upward under both feet: Theorem 3 is silent.");
+    words =
+        fmt::format("Areas within x {:.4g} .. {:.4g}, y {:.4g} .. {:.4g} m.{}", region_.window.min().x(),
+                    region_.window.max().x(), region_.window.min().y(), region_.window.max().y(),
+                    region_.upward ? "" : "  The ground does not face upward under both feet: Theorem 3 is silent.");
   canvas.text(corner_ + Vector2d(0, 48), words, {.size = 12, .colour = faint});
 }
 
@@ -97,7 +101,8 @@ void FrictionalPanel::key(SvgCanvas& canvas) const {
     canvas.rectangle({x, y - 11}, 20, 14, paint);
     canvas.text({x + 28, y}, words, {.bold = true});
     canvas.text({x + 28, y + 14},
-                whole > 0 ? fmt::format("{:.4g} m^2, {:.3g} %", area, 100 * area / whole) : fmt::format("{:.4g} m^2", area),
+                whole > 0 ? fmt::format("{:.4g} m^2, {:.3g} %", area, 100 * area / whole)
+                          : fmt::format("{:.4g} m^2", area),
                 {.size = 10, .colour = faint});
     y += 36;
   };
@@ -107,7 +112,8 @@ void FrictionalPanel::key(SvgCanvas& canvas) const {
   entry({.fill = hatch_fill, .stroke = hatch_ink, .width = 0.8}, "clattering converges (10)", region_.clattering.area);
   entry({.stroke = stable_edge, .width = 2.4}, "both: frictionally stable (Theorem 3)", region_.stable.area);
   y += 4;
-  for (const char* words : {"After every small enough push, which may slide or lift feet,", "the body comes to rest near where it was."}) {
+  for (const char* words :
+       {"After every small enough push, which may slide or lift feet,", "the body comes to rest near where it was."}) {
     canvas.text({x, y}, words, {.size = 10.5, .colour = faint});
     y += 15;
   }

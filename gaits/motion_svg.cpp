@@ -35,8 +35,7 @@ struct Curve {
 class Picture {
  public:
   explicit Picture(const MotionFigure& figure)
-      : figure_(figure),
-        panels_(figure.contacts + 1),
+      : figure_(figure), panels_(figure.contacts + 1),
         end_(figure.events.empty() ? 1 : std::max(figure.events.back().time, 1e-300)),
         canvas_(left + wide + right, top + panels_ * (panel + gap) + 66, figure.title) {}
 
@@ -163,28 +162,17 @@ std::string words(const HybridEvent& event) {
   const int contact = event.contact + 1;
   using Kind = HybridEvent::Kind;
   switch (event.kind) {
-    case Kind::collision:
-      return fmt::format("contact {} collides", contact);
-    case Kind::bouncing:
-      return fmt::format("bouncing at contact {} ends", contact);
-    case Kind::clattering:
-      return "clattering ends";
-    case Kind::chattering:
-      return "chattering in zero time ends";
-    case Kind::dies_out:
-      return "collisions and slides die out";
-    case Kind::mode:
-      return fmt::format("mode {}{}", event.mode.name(), event.ambiguous ? " (one of several)" : "");
-    case Kind::sample:
-      return "moves";
-    case Kind::stops:
-      return fmt::format("sliding at contact {} stops", contact);
-    case Kind::lifts:
-      return fmt::format("contact {} lifts off", contact);
-    case Kind::slips:
-      return fmt::format("contact {} begins to slide", contact);
-    case Kind::reaches:
-      return fmt::format("contact {} comes down", contact);
+    case Kind::collision: return fmt::format("contact {} collides", contact);
+    case Kind::bouncing: return fmt::format("bouncing at contact {} ends", contact);
+    case Kind::clattering: return "clattering ends";
+    case Kind::chattering: return "chattering in zero time ends";
+    case Kind::dies_out: return "collisions and slides die out";
+    case Kind::mode: return fmt::format("mode {}{}", event.mode.name(), event.ambiguous ? " (one of several)" : "");
+    case Kind::sample: return "moves";
+    case Kind::stops: return fmt::format("sliding at contact {} stops", contact);
+    case Kind::lifts: return fmt::format("contact {} lifts off", contact);
+    case Kind::slips: return fmt::format("contact {} begins to slide", contact);
+    case Kind::reaches: return fmt::format("contact {} comes down", contact);
   }
   return "";
 }

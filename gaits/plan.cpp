@@ -4,12 +4,9 @@ namespace surefoot::gaits {
 
 const char* to_string(Status status) {
   switch (status) {
-    case Status::solved:
-      return "solved";
-    case Status::no_plan_found:
-      return "no_plan_found";
-    case Status::infeasible:
-      return "infeasible";
+    case Status::solved: return "solved";
+    case Status::no_plan_found: return "no_plan_found";
+    case Status::infeasible: return "infeasible";
   }
   return "";
 }

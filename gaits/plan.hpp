@@ -16,18 +16,18 @@ using Feet = std::array<std::optional<terrain::Foothold>, leg_count>;  ///< plan
 
 /// Two planted feet, COM at rest.
 struct Stance {
-  Feet feet;                                           ///< exactly two are planted
-  Eigen::Vector2d com = Eigen::Vector2d::Zero();       ///< [m]
-  double safety_factor = 0;                            ///< of the stance, in [0, inf]
-  std::string limit;                                   ///< what limits it ("equilibrium", "UF", "none")
+  Feet feet;                                      ///< exactly two are planted
+  Eigen::Vector2d com = Eigen::Vector2d::Zero();  ///< [m]
+  double safety_factor = 0;                       ///< of the stance, in [0, inf]
+  std::string limit;                              ///< what limits it ("equilibrium", "UF", "none")
 };
 
 /// From one stance to the next: `leg` is placed on `foothold`, the COM moves straight to the next
 /// stance's COM on three contacts, then `lift` is lifted.
 struct Transfer {
-  int leg = 0;   ///< 0..2
+  int leg = 0;  ///< 0..2
   terrain::Foothold foothold;
-  int lift = 0;  ///< 0..2
+  int lift = 0;              ///< 0..2
   double safety_factor = 0;  ///< least on the line
   std::string limit;
 };
@@ -53,7 +53,7 @@ struct Plan {
   std::string reason;  ///< why there is no plan; empty if solved
   std::string planner;
   std::uint32_t seed = 1;
-  std::vector<Stance> stances;      ///< one more than transfers when solved
+  std::vector<Stance> stances;  ///< one more than transfers when solved
   std::vector<Transfer> transfers;
   double safety_factor = 0;  ///< least of all
   std::optional<double> safety_factor_before_refinement;

@@ -153,7 +153,7 @@ std::string json_string(const std::string& value) { return quoted(value); }
 
 /// Plain where no reader can mistake it: a lower-case word that is none of YAML's words for truth, nothing or numbers.
 std::string yaml_string(const std::string& value) {
-  static constexpr std::array<std::string_view, 12> taken{"",   "y",   "n",    "yes",   "no",   "on",
+  static constexpr std::array<std::string_view, 12> taken{"",    "y",    "n",     "yes",  "no",  "on",
                                                           "off", "true", "false", "null", "nan", "inf"};
   const bool word = value.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos && value[0] != '_';
   return word && std::find(taken.begin(), taken.end(), value) == taken.end() ? value : quoted(value);

@@ -11,12 +11,12 @@ using Eigen::Vector2d;
 
 // All in pixels.
 constexpr double widest_page = 1200, narrowest_page = 860, margin = 30;
-constexpr double row_gap = 40;           // below each row, holds its axis
-constexpr double tallest_single = 620;   // a journey shown in one row
-constexpr double widest_reach = 240;     // a robot is not drawn larger than this
-constexpr double least_reach = 90;       // below this the journey is broken into rows
+constexpr double row_gap = 40;          // below each row, holds its axis
+constexpr double tallest_single = 620;  // a journey shown in one row
+constexpr double widest_reach = 240;    // a robot is not drawn larger than this
+constexpr double least_reach = 90;      // below this the journey is broken into rows
 constexpr double reach_in_rows = 100;
-constexpr int most_rows = 24;            // a longer journey is drawn smaller
+constexpr int most_rows = 24;  // a longer journey is drawn smaller
 
 void extend(AlignedBox2d& box, const Feet& feet) {
   for (const auto& foot : feet)

@@ -98,8 +98,11 @@ class PlanPicture {
       canvas_.line(at, at + across, com_line);
       canvas_.circle(at + middle, dot_radius, com_dot);
     });
-    if (has_weakest()) entry("least safety factor", [&](const Vector2d& at) { canvas_.line(at, at + across, weak_line); });
-    const auto box = [&](const Vector2d& at, const Paint& paint) { canvas_.rectangle(at - Vector2d(0, 6), 22, 12, paint); };
+    if (has_weakest())
+      entry("least safety factor", [&](const Vector2d& at) { canvas_.line(at, at + across, weak_line); });
+    const auto box = [&](const Vector2d& at, const Paint& paint) {
+      canvas_.rectangle(at - Vector2d(0, 6), 22, 12, paint);
+    };
     entry("R_SS(W): COMs in balance", [&](const Vector2d& at) {
       box(at, {.fill = support_colour, .opacity = 0.25});
       box(at, support_edge);
@@ -209,7 +212,8 @@ class PlanPicture {
     const terrain::Segment* segment = terrain_.segment_of(foothold);
     const Vector2d inwards = segment ? Vector2d(-segment->normal.x(), segment->normal.y()) : Vector2d(0, 1);
     canvas_.circle(at, dot_radius + (start ? 1.2 : 0),
-                   start ? Paint{.fill = "#fff", .stroke = leg_colour[leg], .width = 2.2} : Paint{.fill = leg_colour[leg]});
+                   start ? Paint{.fill = "#fff", .stroke = leg_colour[leg], .width = 2.2}
+                         : Paint{.fill = leg_colour[leg]});
     constexpr int tries = 3;
     for (int k = 0; k < tries; ++k) {
       const Vector2d beneath = at + inwards * (badge_radius + 5 + k * (2 * badge_radius + 1));
@@ -225,7 +229,8 @@ class PlanPicture {
       if (drawn.emplace(leg, foothold.chain, foothold.s).second) foot(row, foothold, leg, start, places);
     };
     for (int leg = 0; leg < leg_count; ++leg)
-      if (const auto& first = scene_.start.feet[leg]; first && row.window.contains(first->position)) once(*first, leg, true);
+      if (const auto& first = scene_.start.feet[leg]; first && row.window.contains(first->position))
+        once(*first, leg, true);
     for (const int k : row.stances) {
       for (const int leg : planted_legs(plan_.stances[k].feet)) once(*plan_.stances[k].feet[leg], leg, false);
       if (k < plan_.steps()) once(plan_.transfers[k].foothold, plan_.transfers[k].leg, false);
@@ -234,8 +239,8 @@ class PlanPicture {
 
   std::string tooltip(int k) const {
     const Stance& stance = plan_.stances[k];
-    std::string words = fmt::format("stance {}: COM ({:g}, {:g}), safety factor {}", k + 1, stance.com.x(), stance.com.y(),
-                                    factor_in_words(stance.safety_factor));
+    std::string words = fmt::format("stance {}: COM ({:g}, {:g}), safety factor {}", k + 1, stance.com.x(),
+                                    stance.com.y(), factor_in_words(stance.safety_factor));
     if (!stance.limit.empty())
       words += fmt::format(" ({}: {})", stance.limit, limit_in_words(stance.limit, planted_legs(stance.feet)));
     if (k < plan_.steps())

@@ -48,12 +48,14 @@ class Report {
 
  private:
   std::string heading() const {
-    static const std::map<Status, const char*> words{
-        {Status::solved, "solved"}, {Status::no_plan_found, "no plan found"}, {Status::infeasible, "infeasible"}};
+    static const std::map<Status, const char*> words{{Status::solved, "solved"},
+                                                     {Status::no_plan_found, "no plan found"},
+                                                     {Status::infeasible, "infeasible"}};
     const std::string status = words.at(plan_.status);
     std::string text = paint(printable(plan_.scene), bold, options_.colour) + ": " +
                        paint(status, plan_.status == Status::solved ? green : red, options_.colour);
-    if (plan_.status == Status::solved) text += fmt::format(" in {} step{}", plan_.steps(), plan_.steps() == 1 ? "" : "s");
+    if (plan_.status == Status::solved)
+      text += fmt::format(" in {} step{}", plan_.steps(), plan_.steps() == 1 ? "" : "s");
     if (!plan_.reason.empty()) text += " - " + printable(plan_.reason);
     return text + "\n";
   }
@@ -82,17 +84,17 @@ class Report {
   std::string table() const {
     using Align = TextTable::Align;
     TextTable table({{"", "step", Align::right},
-                 {"foot [m]", "leg", Align::right},
-                 {"", "from", Align::left},
-                 {"", "to", Align::left},
-                 {"legs", "support", Align::left},
-                 {"COM [m]", "from", Align::left},
-                 {"", "to", Align::left},
-                 {"leg", "lifted", Align::left},
-                 {"stance", "safety", Align::right},
-                 {"", "limit", Align::left},
-                 {"transfer", "safety", Align::right},
-                 {"", "limit", Align::left}});
+                     {"foot [m]", "leg", Align::right},
+                     {"", "from", Align::left},
+                     {"", "to", Align::left},
+                     {"legs", "support", Align::left},
+                     {"COM [m]", "from", Align::left},
+                     {"", "to", Align::left},
+                     {"leg", "lifted", Align::left},
+                     {"stance", "safety", Align::right},
+                     {"", "limit", Align::left},
+                     {"transfer", "safety", Align::right},
+                     {"", "limit", Align::left}});
     Feet last = scene_.start.feet;  // where each leg stood last
     for (int k = 0; k < static_cast<int>(plan_.stances.size()); ++k) {
       const Stance& stance = plan_.stances[k];
@@ -127,8 +129,18 @@ class Report {
 
   std::vector<TextTable::Cell> last_row(int k) const {
     const Stance& stance = plan_.stances[k];
-    return {{"end"}, {}, {}, {}, {legs_text(planted_legs(stance.feet))}, {point(stance.com)}, {}, {},
-            sigma_cell(stance.safety_factor, false, k), {or_dash(stance.limit)}, {}, {}};
+    return {{"end"},
+            {},
+            {},
+            {},
+            {legs_text(planted_legs(stance.feet))},
+            {point(stance.com)},
+            {},
+            {},
+            sigma_cell(stance.safety_factor, false, k),
+            {or_dash(stance.limit)},
+            {},
+            {}};
   }
 
   std::string summary() const {
@@ -156,13 +168,14 @@ class Report {
                                             reached.foothold_spacing, reached.com_columns);
     if (plan_.steps() <= reached.least_steps) return "No plan has fewer steps: reach alone forbids it.\n";
     return fmt::format("{} {}; whatever the lattice, {} step{} at least.\n",
-                       reached.fewest_on_lattice ? "No plan of fewer steps on" : "Searched, not to the end, on", lattice,
-                       reached.least_steps, reached.least_steps == 1 ? "" : "s");
+                       reached.fewest_on_lattice ? "No plan of fewer steps on" : "Searched, not to the end, on",
+                       lattice, reached.least_steps, reached.least_steps == 1 ? "" : "s");
   }
 
   std::string where() const {
     if (std::isinf(least_.sigma)) return "";
-    return fmt::format(" in {}{}", place_in_words(least_, plan_.steps()), least_.limit.empty() ? "" : " (" + printable(least_.limit) + ")");
+    return fmt::format(" in {}{}", place_in_words(least_, plan_.steps()),
+                       least_.limit.empty() ? "" : " (" + printable(least_.limit) + ")");
   }
 
   /// "1-3, 7, end"
@@ -200,8 +213,8 @@ class Report {
     }
     if (entries.empty()) return "";
     std::string text("\n");
-    text += paint("What limits the steps", bold, options_.colour) +
-                       " (+t: along the ground with free space on the left)\n";
+    text +=
+        paint("What limits the steps", bold, options_.colour) + " (+t: along the ground with free space on the left)\n";
     for (const Entry& entry : entries) {
       text += fmt::format("  {} on legs {}: {}\n", printable(entry.limit), legs_text(entry.legs),
                           printable(limit_in_words(entry.limit, entry.legs)));
@@ -215,7 +228,8 @@ class Report {
     if (plan_.left_out.empty()) return "";
     std::string text("\n");
     text += paint("Left out", bold, options_.colour) + "\n";
-    for (const LeftOut& item : plan_.left_out) text += fmt::format("  {}: {}\n", printable(item.what), printable(item.why));
+    for (const LeftOut& item : plan_.left_out)
+      text += fmt::format("  {}: {}\n", printable(item.what), printable(item.why));
     return text;
   }
 

@@ -37,10 +37,8 @@ std::string title_of(const Plan& plan) {
     case Status::solved:
       return fmt::format("{}: {} step{}, safety factor {}", plan.scene, plan.steps(), plan.steps() == 1 ? "" : "s",
                          factor_in_words(plan.safety_factor));
-    case Status::no_plan_found:
-      return plan.scene + ": no plan found";
-    case Status::infeasible:
-      return plan.scene + ": infeasible";
+    case Status::no_plan_found: return plan.scene + ": no plan found";
+    case Status::infeasible: return plan.scene + ": infeasible";
   }
   return plan.scene;
 }
@@ -49,8 +47,7 @@ WeakestPlace weakest_place(const Plan& plan) {
   WeakestPlace least;
   for (int k = 0; k < static_cast<int>(plan.stances.size()); ++k) {
     const Stance& stance = plan.stances[k];
-    if (least.index < 0 || stance.safety_factor < least.sigma)
-      least = {stance.safety_factor, false, k, stance.limit};
+    if (least.index < 0 || stance.safety_factor < least.sigma) least = {stance.safety_factor, false, k, stance.limit};
     if (k < plan.steps() && plan.transfers[k].safety_factor < least.sigma)
       least = {plan.transfers[k].safety_factor, true, k, plan.transfers[k].limit};
   }

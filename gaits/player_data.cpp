@@ -105,8 +105,7 @@ class PlayerData {
   Tree stance(const Stance& stance, const Feet& last) const {
     Tree tree = verdict(stance.feet, stance.safety_factor, stance.limit, scene_.criterion == Criterion::robust);
     for (int leg = 0; leg < leg_count; ++leg)
-      if (!stance.feet[leg])
-        tree["free"] = {{"leg", leg + 1}, {"from", last[leg] ? tree_of(*last[leg]) : Tree()}};
+      if (!stance.feet[leg]) tree["free"] = {{"leg", leg + 1}, {"from", last[leg] ? tree_of(*last[leg]) : Tree()}};
     return tree;
   }
 
@@ -132,10 +131,9 @@ class PlayerData {
     if (window.isEmpty()) return rings;
     if (!all_modes) {
       const stability::RobustOracle oracle(contacts, scene_.robot.radius_of_gyration, scene_.disturbance);
-      const Polyline polygon = oracle.equilibrium_polygon({window.corner(AlignedBox2d::BottomLeft),
-                                                           window.corner(AlignedBox2d::BottomRight),
-                                                           window.corner(AlignedBox2d::TopRight),
-                                                           window.corner(AlignedBox2d::TopLeft)});
+      const Polyline polygon =
+          oracle.equilibrium_polygon({window.corner(AlignedBox2d::BottomLeft), window.corner(AlignedBox2d::BottomRight),
+                                      window.corner(AlignedBox2d::TopRight), window.corner(AlignedBox2d::TopLeft)});
       if (polygon.size() > 2) rings.push_back(drawn(polygon));
       return rings;
     }
@@ -181,8 +179,7 @@ class PlayerData {
 }  // namespace
 
 std::string player_data(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults) {
-  const std::string text =
-      PlayerData(scene, plan).tree(faults).dump(-1, ' ', true, Tree::error_handler_t::replace);
+  const std::string text = PlayerData(scene, plan).tree(faults).dump(-1, ' ', true, Tree::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {  // these occur inside strings only

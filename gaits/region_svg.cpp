@@ -23,12 +23,13 @@ constexpr std::string_view robust_fill = "#7fc8a9", robust_edge = "#00684b";
 constexpr std::array<std::string_view, 10> shades{"#f6c98f", "#a9cdea", "#e8b4cf", "#f4ec9a", "#e9a58c",
                                                   "#c7c3e6", "#d2b48c", "#bfd9a0", "#f2d5d5", "#b9d5d8"};
 constexpr double left = 30, top = 110, gap = 26, key_width = 372;  // [px]
-constexpr double bottom_room = 78;                                // [px]
+constexpr double bottom_room = 78;                                 // [px]
 constexpr std::size_t most_in_key = 24;
 
 class Picture {
  public:
-  Picture(const RegionFigure& figure, const Region& region, const std::optional<stability::FrictionalRegion>& frictional)
+  Picture(const RegionFigure& figure, const Region& region,
+          const std::optional<stability::FrictionalRegion>& frictional)
       : figure_(figure), region_(region), stance_(figure, bounds_of(region.equilibrium), {left, top}),
         window_(stance_.window()), view_(stance_.view()), size_(stance_.size()) {
     if (frictional) panel_.emplace(figure, *frictional, Vector2d(left, own_height()));
@@ -57,7 +58,9 @@ class Picture {
 
  private:
   double own_height() const { return top + std::max(size_.y() + bottom_room, key_height()); }
-  double key_height() const { return 150 + 34.0 * static_cast<double>(std::min(region_.cells.size(), most_in_key + 1)); }
+  double key_height() const {
+    return 150 + 34.0 * static_cast<double>(std::min(region_.cells.size(), most_in_key + 1));
+  }
 
   std::string share(double area) const {
     return region_.equilibrium_area > 0 ? fmt::format("{:.3g} %", 100 * area / region_.equilibrium_area) : "-";
@@ -67,18 +70,17 @@ class Picture {
     canvas_->text({left, 36}, figure_.title, {.size = 20, .bold = true});
     const auto& box = figure_.box;
     std::string words = fmt::format("rho = {:.4g} m, ", figure_.radius_of_gyration);
-    if (box.one_wrench() && box.centred())
-      words += "gravity alone";
-    else if (box.one_wrench())
-      words += fmt::format("wrench p = {:.4g}, q = {:.4g} m", box.centre.p, box.centre.q);
+    if (box.one_wrench() && box.centred()) words += "gravity alone";
+    else if (box.one_wrench()) words += fmt::format("wrench p = {:.4g}, q = {:.4g} m", box.centre.p, box.centre.q);
     else
       words += fmt::format("W: {} <= {:.4g}, {} <= {:.4g} m", box.centre.p == 0 ? "|p|" : "|p - p0|", box.kappa,
                            box.centre.q == 0 ? "|q|" : "|q - q0|", box.nu);
     canvas_->text({left, 58}, words, {.size = 13, .colour = faint});
-    std::string result = region_.empty() ? "No COM can be balanced under every wrench of W."
-                                         : fmt::format("{}: {:.5g} m^2.  {}: {:.5g} m^2, {} of it.", equilibrium_name(box),
-                                                       region_.equilibrium_area, robust_name(box), region_.robust_area,
-                                                       share(region_.robust_area));
+    std::string result =
+        region_.empty()
+            ? "No COM can be balanced under every wrench of W."
+            : fmt::format("{}: {:.5g} m^2.  {}: {:.5g} m^2, {} of it.", equilibrium_name(box), region_.equilibrium_area,
+                          robust_name(box), region_.robust_area, share(region_.robust_area));
     canvas_->text({left, 79}, result, {.size = 13});
     std::string more;
     if (region_.window)
@@ -104,19 +106,18 @@ class Picture {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return extent(a) > extent(b); });
     for (const std::size_t k : order) {
       const std::string_view fill = shade(k);
-      canvas_->polygon(view_(region_.cells[k].rings.front()), {.fill = fill, .stroke = fill, .width = 0.4, .opacity = 0.82}, "cell");
+      canvas_->polygon(view_(region_.cells[k].rings.front()),
+                       {.fill = fill, .stroke = fill, .width = 0.4, .opacity = 0.82}, "cell");
     }
   }
 
   void curves() {
     for (const auto& boundary : region_.boundaries) {
       const bool edge = boundary.curve.kind == stability::CurveId::edge;
-      if (!edge)
-        canvas_->polyline(view_(boundary.polyline), {.stroke = "#555", .width = 0.9});
+      if (!edge) canvas_->polyline(view_(boundary.polyline), {.stroke = "#555", .width = 0.9});
       else if (boundary.label == "window")
         canvas_->polyline(view_(boundary.polyline), {.stroke = faint, .width = 1, .dash = "5 4"});
-      else
-        canvas_->polyline(view_(boundary.polyline), {.stroke = robust_edge, .width = 1.8});
+      else canvas_->polyline(view_(boundary.polyline), {.stroke = robust_edge, .width = 1.8});
     }
   }
 
@@ -198,13 +199,14 @@ class Picture {
     const Vector2d way = number.place - number.at;
     if (way.norm() > 20) canvas_->line(number.at, number.place - 9 * way.normalized(), {.stroke = faint, .width = 0.7});
     canvas_->text(number.place + Vector2d(0, 4), std::to_string(number.cell + 1),
-                 {.size = 12, .anchor = "middle", .bold = true, .halo = true});
+                  {.size = 12, .anchor = "middle", .bold = true, .halo = true});
   }
 
   void key() {
     const double x = left + size_.x() + gap;
     double y = top + 14;
-    canvas_->text({x, y}, fmt::format("Cells of {} and what may happen there", equilibrium_name(figure_.box)), {.size = 13, .bold = true});
+    canvas_->text({x, y}, fmt::format("Cells of {} and what may happen there", equilibrium_name(figure_.box)),
+                  {.size = 13, .bold = true});
     y += 24;
     for (std::size_t k = 0; k < region_.cells.size(); ++k) {
       const RegionCell& cell = region_.cells[k];
@@ -218,8 +220,9 @@ class Picture {
       std::string modes;
       for (const auto& mode : cell.modes) modes += (modes.empty() ? "" : " ") + mode.name();
       canvas_->text({x + 52, y}, modes.empty() ? robust_name(figure_.box) + ": stays at rest" : modes,
-                   {.size = modes.size() > 34 ? 9.0 : 12.0, .bold = modes.empty()});
-      canvas_->text({x + 52, y + 14}, fmt::format("{:.4g} m^2, {}", cell.area, share(cell.area)), {.size = 10, .colour = faint});
+                    {.size = modes.size() > 34 ? 9.0 : 12.0, .bold = modes.empty()});
+      canvas_->text({x + 52, y + 14}, fmt::format("{:.4g} m^2, {}", cell.area, share(cell.area)),
+                    {.size = 10, .colour = faint});
       y += 34;
     }
     y += 4;

@@ -64,22 +64,14 @@ std::optional<Rule> broken_stance_geometry(const Scene& scene, const Stance& sta
 
 const char* to_string(Rule rule) {
   switch (rule) {
-    case Rule::foothold:
-      return "foothold";
-    case Rule::reach:
-      return "reach";
-    case Rule::clearance:
-      return "clearance";
-    case Rule::leg_visibility:
-      return "leg visibility";
-    case Rule::swing:
-      return "swing";
-    case Rule::stance_stability:
-      return "stance stability";
-    case Rule::transfer_stability:
-      return "transfer stability";
-    case Rule::gait:
-      return "gait";
+    case Rule::foothold: return "foothold";
+    case Rule::reach: return "reach";
+    case Rule::clearance: return "clearance";
+    case Rule::leg_visibility: return "leg visibility";
+    case Rule::swing: return "swing";
+    case Rule::stance_stability: return "stance stability";
+    case Rule::transfer_stability: return "transfer stability";
+    case Rule::gait: return "gait";
   }
   return "";
 }
@@ -147,8 +139,7 @@ RobustOracle oracle_of(const Scene& scene, const Feet& feet, const stability::Di
   for (const auto& foot : feet) {
     if (foot) contacts[count++] = contact_at(*foot);
   }
-  return RobustOracle(std::span<const stability::Contact>(contacts.data(), count), scene.robot.radius_of_gyration,
-                      box);
+  return RobustOracle(std::span<const stability::Contact>(contacts.data(), count), scene.robot.radius_of_gyration, box);
 }
 
 bool is_stable(const Scene& scene, const RobustOracle& oracle, const Vector2d& com) {

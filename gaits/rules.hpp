@@ -61,8 +61,8 @@ bool swings_any_way(const Scene& scene, const Eigen::Vector2d& com);
 stability::RobustOracle oracle_of(const Scene& scene, const Feet& feet);
 /// The same for disturbances of another size than the scene's.
 stability::RobustOracle oracle_of(const Scene& scene, const Feet& feet, const stability::DisturbanceBox& box);
-/// The scene's criterion at a COM (of a stance: the frictional criteria take two contacts), and along a straight line of
-/// COMs, for contacts whose oracle is at hand.
+/// The scene's criterion at a COM (of a stance: the frictional criteria take two contacts), and along a straight line
+/// of COMs, for contacts whose oracle is at hand.
 bool is_stable(const Scene& scene, const stability::RobustOracle& oracle, const Eigen::Vector2d& com);
 bool is_stable(const Scene& scene, const stability::RobustOracle& oracle, const Eigen::Vector2d& from,
                const Eigen::Vector2d& to);

@@ -43,9 +43,8 @@ double read_radius(const Node& node) {
 
 void read_reach(const Node& node, Robot& robot) {
   const auto& ends = node.items("reach [least, greatest]", 2);
-  node.attempt_each(
-      [&] { robot.reach_min = bounded(ends[0], "least reach", ends[0].not_negative("least reach")); },
-      [&] { robot.reach_max = bounded(ends[1], "greatest reach", ends[1].positive("greatest reach")); });
+  node.attempt_each([&] { robot.reach_min = bounded(ends[0], "least reach", ends[0].not_negative("least reach")); },
+                    [&] { robot.reach_max = bounded(ends[1], "greatest reach", ends[1].positive("greatest reach")); });
   if (!(robot.reach_min < robot.reach_max)) {
     node.fail(fmt::format("reach: [{}, {}] is empty; expected the least below the greatest", robot.reach_min,
                           robot.reach_max));
@@ -55,16 +54,15 @@ void read_reach(const Node& node, Robot& robot) {
 Robot read_robot(const Node& node) {
   node.allow_only({"radius_of_gyration", "reach", "clearance", "mass"}, "robot");
   Robot robot;
-  node.attempt_each(
-      [&] { robot.radius_of_gyration = read_radius(node.require("radius_of_gyration", "robot")); },
-      [&] { read_reach(node.require("reach", "robot"), robot); },
-      [&] {
-        if (const Node* clearance = node.find("clearance"))
-          robot.clearance = bounded(*clearance, "clearance", clearance->not_negative("clearance"));
-      },
-      [&] {
-        if (const Node* mass = node.find("mass")) robot.mass = mass->positive("mass");
-      });
+  node.attempt_each([&] { robot.radius_of_gyration = read_radius(node.require("radius_of_gyration", "robot")); },
+                    [&] { read_reach(node.require("reach", "robot"), robot); },
+                    [&] {
+                      if (const Node* clearance = node.find("clearance"))
+                        robot.clearance = bounded(*clearance, "clearance", clearance->not_negative("clearance"));
+                    },
+                    [&] {
+                      if (const Node* mass = node.find("mass")) robot.mass = mass->positive("mass");
+                    });
   return robot;
 }
 
@@ -166,25 +164,20 @@ Scene read_scene(const Node& root, const std::string& file) {
   auto ground = root.attempt([&] { return terrain::load_terrain(root.require("terrain", "scene")); });
   const auto robot = root.attempt([&] { return read_robot(root.require("robot", "scene")); });
   const auto box = root.attempt([&] { return read_disturbance(root.require("disturbance", "scene")); });
-  const Node *chosen_stability = root.find("stability"), *chosen_search = root.find("search"), *name = root.find("name");
+  const Node *chosen_stability = root.find("stability"), *chosen_search = root.find("search"),
+             *name = root.find("name");
   const auto stability =
       root.attempt([&] { return chosen_stability ? read_stability(*chosen_stability) : Stability(); });
-  auto start = root.attempt(
-      [&] { return read_start(root.require("start", "scene"), ground ? &*ground : nullptr, robot ? &*robot : nullptr); });
+  auto start = root.attempt([&] {
+    return read_start(root.require("start", "scene"), ground ? &*ground : nullptr, robot ? &*robot : nullptr);
+  });
   const auto goal = root.attempt([&] { return read_goal(root.require("goal", "scene")); });
   auto search = root.attempt([&] { return chosen_search ? read_search(*chosen_search) : SearchDefaults(); });
   auto title = root.attempt([&] { return name ? name->text("name") : std::filesystem::path(file).stem().string(); });
   if (root.faults() && root.faults()->count() > 0) throw terrain::AlreadyTold();
-  return Scene{file,
-               *std::move(title),
-               *std::move(ground),
-               *robot,
-               *box,
-               stability->criterion,
-               stability->restitution,
-               *std::move(start),
-               *goal,
-               *std::move(search)};
+  return Scene{file,  *std::move(title),    *std::move(ground),     *robot,
+               *box,  stability->criterion, stability->restitution, *std::move(start),
+               *goal, *std::move(search)};
 }
 
 template <class Open>

@@ -88,8 +88,9 @@ void StancePicture::contacts(SvgCanvas& canvas) const {
     canvas.polygon({at, edge(1), edge(-1)}, {.fill = "#999", .opacity = 0.3}, "cone");
     for (const double sign : {1.0, -1.0}) canvas.line(at, edge(sign), {.stroke = "#333", .width = 1.1});
     canvas.circle(at, contact_radius, {.fill = ink});
-    canvas.text(at + Vector2d(0, 4), i < figure_.contact_names.size() ? figure_.contact_names[i] : std::to_string(i + 1),
-                 {.size = 11, .colour = "#fff", .anchor = "middle", .bold = true});
+    canvas.text(at + Vector2d(0, 4),
+                i < figure_.contact_names.size() ? figure_.contact_names[i] : std::to_string(i + 1),
+                {.size = 11, .colour = "#fff", .anchor = "middle", .bold = true});
   }
 }
 

@@ -84,14 +84,16 @@ void SvgCanvas::open_group(std::string_view css_class, std::string_view clip_id)
 void SvgCanvas::close_group() { body_ += "</g>\n"; }
 
 void SvgCanvas::define_clip(std::string_view id, const Eigen::Vector2d& corner, double width, double height) {
-  body_ += fmt::format("<defs><clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath></defs>\n",
-                       id, px(corner.x()), px(corner.y()), px(width), px(height));
+  body_ +=
+      fmt::format("<defs><clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath></defs>\n",
+                  id, px(corner.x()), px(corner.y()), px(width), px(height));
 }
 
 void SvgCanvas::define_hatch(std::string_view id, std::string_view colour) {
-  body_ += fmt::format("<defs><pattern id=\"{}\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
-                       "patternTransform=\"rotate(45)\"><path d=\"M0 0V7\" stroke=\"{}\" stroke-width=\"1.6\"/></pattern></defs>\n",
-                       id, colour);
+  body_ += fmt::format(
+      "<defs><pattern id=\"{}\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
+      "patternTransform=\"rotate(45)\"><path d=\"M0 0V7\" stroke=\"{}\" stroke-width=\"1.6\"/></pattern></defs>\n",
+      id, colour);
 }
 
 void SvgCanvas::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Paint& paint) {
@@ -115,8 +117,8 @@ void SvgCanvas::polygon(const Polyline& points, const Paint& paint, std::string_
 }
 
 void SvgCanvas::rectangle(const Eigen::Vector2d& corner, double width, double height, const Paint& paint) {
-  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>\n", px(corner.x()), px(corner.y()), px(width),
-                       px(height), attributes(paint));
+  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>\n", px(corner.x()), px(corner.y()),
+                       px(width), px(height), attributes(paint));
 }
 
 void SvgCanvas::circle(const Eigen::Vector2d& centre, double radius, const Paint& paint, std::string_view tooltip) {

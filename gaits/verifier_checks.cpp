@@ -30,9 +30,8 @@ std::optional<Foot> Checks::rebuild(const std::string& place, int leg, const ter
   const auto after = std::partition_point(segments.begin(), segments.end(), [&stated](const Segment& segment) {
     return segment.chain < stated.chain || (segment.chain == stated.chain && segment.s_begin < stated.s);
   });
-  const auto end = std::partition_point(after, segments.end(), [&stated](const Segment& segment) {
-    return segment.chain <= stated.chain;
-  });
+  const auto end = std::partition_point(after, segments.end(),
+                                        [&stated](const Segment& segment) { return segment.chain <= stated.chain; });
   const bool chain_exists = end != segments.begin() && std::prev(end)->chain == stated.chain;
   const double chain_length = chain_exists ? std::prev(end)->s_begin + std::prev(end)->length : 0;
   if (after != segments.begin() && std::prev(after)->chain == stated.chain &&
@@ -175,7 +174,8 @@ void Checks::check_frictional(const std::string& place, const RobustOracle& orac
   std::string why;
   if (!verdict.upward) why = "the ground does not face upward under both feet";
   else if (!verdict.equilibrium) why = "gravity alone cannot be balanced";
-  else if (verdict.failed_mode) why = fmt::format("no kinematic-strong equilibrium, mode {}", verdict.failed_mode->name());
+  else if (verdict.failed_mode)
+    why = fmt::format("no kinematic-strong equilibrium, mode {}", verdict.failed_mode->name());
   else why = fmt::format("clattering with psi = {:.6g}, {:.6g} need not die out", psi_1, psi_2);
   note(Rule::stance_stability, place, "not frictionally stable with the COM at {}: {}", show(com), why);
 }

@@ -80,8 +80,8 @@ bool meets_sector(const Point& centre, double radius, const Point& from, const P
   return turn(last, from) <= 2 * std::numbers::pi - sweep;
 }
 
-// Borders are places where segments begin, every sixteenth of them; a terrain most of whose segments cross many strips is
-// left in one.
+// Borders are places where segments begin, every sixteenth of them; a terrain most of whose segments cross many strips
+// is left in one.
 Strips::Strips(const terrain::Terrain& terrain) {
   constexpr std::size_t per_strip = 16, most_entries_per_segment = 16;
   std::vector<double> begins;

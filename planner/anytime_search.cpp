@@ -34,12 +34,12 @@ constexpr Stage stage_at(std::size_t number, bool companion) {
   return {unlimited_width, first_unlimited + static_cast<int>(number - limited_stages)};
 }
 
-constexpr double first_raise = 1.5;      ///< of the disturbances beyond what the plan bears, while that succeeds
-constexpr double scale_precision = 0.02; ///< relative: a plan safer by less is not looked for
-constexpr double greatest_scale = 1e6;   ///< beyond, a plan bears anything
+constexpr double first_raise = 1.5;       ///< of the disturbances beyond what the plan bears, while that succeeds
+constexpr double scale_precision = 0.02;  ///< relative: a plan safer by less is not looked for
+constexpr double greatest_scale = 1e6;    ///< beyond, a plan bears anything
 constexpr std::size_t safety_stages[] = {0, 2, 3, 4};  ///< of the searches for a scale, round after round
 constexpr std::uint64_t safety_work = 200000;          ///< after which no further round begins
-constexpr std::uint64_t safety_stall = 60000;  ///< work without progress after which a scale counts as refused
+constexpr std::uint64_t safety_stall = 60000;          ///< work without progress after which a scale counts as refused
 
 /// Weights of detours and widths of the search, by turns.
 constexpr std::pair<double, int> distance_passes[] = {{1, 8},   {4, 8},   {16, 8},  {1, 32},  {4, 32},
@@ -175,9 +175,7 @@ bool AnytimeSearch::improve_steps(std::uint64_t until) {
     now.below = static_cast<int>(path_.size()) - 1;
     finest_ = std::max(finest_, now.level);
     switch (layers_->run(now)) {
-      case LayerSearch::End::found:
-        take(layers_->path());
-        break;
+      case LayerSearch::End::found: take(layers_->path()); break;
       case LayerSearch::End::exhausted:
         exhausted_level_ = now.level;
         // Other first COMs than those tried would then do more than ever finer lattices.
@@ -189,8 +187,7 @@ bool AnytimeSearch::improve_steps(std::uint64_t until) {
         if (stage_ + 1 == stage_count) return false;
         ++stage_;
         break;
-      case LayerSearch::End::limit:
-        return !layers_->is_full();
+      case LayerSearch::End::limit: return !layers_->is_full();
     }
   }
   return true;

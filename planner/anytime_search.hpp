@@ -83,16 +83,16 @@ class AnytimeSearch {
   LatticeResolution lattice_;
   std::unique_ptr<LayerSearch> layers_;
   std::vector<Node> path_;
-  std::uint64_t spent_ = 0;     ///< work of lattices given up
-  std::size_t stage_ = 0;       ///< of the schedule
-  int finest_ = 0;              ///< level begun
-  int exhausted_level_ = -1;    ///< level on which no plan of fewer steps exists
-  double scale_ = 1;            ///< of the disturbances on the lattice in use
+  std::uint64_t spent_ = 0;      ///< work of lattices given up
+  std::size_t stage_ = 0;        ///< of the schedule
+  int finest_ = 0;               ///< level begun
+  int exhausted_level_ = -1;     ///< level on which no plan of fewer steps exists
+  double scale_ = 1;             ///< of the disturbances on the lattice in use
   std::optional<double> trial_;  ///< scale that a plan is being looked for
-  double factor_ = 0;           ///< least safety factor of the plan
-  double refused_ = 0;          ///< scale for which there is no plan, or none was found
-  double most_allowed_ = 0;     ///< scale that no first stance bears
-  std::size_t round_ = 0;       ///< of searches for a scale, each wider
+  double factor_ = 0;            ///< least safety factor of the plan
+  double refused_ = 0;           ///< scale for which there is no plan, or none was found
+  double most_allowed_ = 0;      ///< scale that no first stance bears
+  std::size_t round_ = 0;        ///< of searches for a scale, each wider
   bool scale_settled_ = false;
   double detour_weight_ = 0;  ///< of the lattice in use; only for objective distance
   std::size_t passes_ = 0;    ///< of distance_passes, that are done

@@ -16,8 +16,8 @@ int run_check(const CheckArguments& arguments) {
   if (arguments.scene == "-" && arguments.plan == "-")
     throw terrain::InputError("scene and plan cannot both be read from standard input");
   const gaits::Scene scene = open_scene(arguments.scene);
-  const gaits::Plan plan = arguments.plan == "-" ? gaits::parse_plan(read_stdin(), "<stdin>")
-                                                 : gaits::read_plan(arguments.plan);
+  const gaits::Plan plan =
+      arguments.plan == "-" ? gaits::parse_plan(read_stdin(), "<stdin>") : gaits::read_plan(arguments.plan);
   FigureOutputs outputs({{"--svg", arguments.svg}, {"--html", arguments.html}}, arguments.plan);
   for (const char* option : {"--svg", "--html"})
     if (const OutputFile* file = outputs.file(option); file && file->same_as(scene_file(arguments.scene)))
@@ -34,10 +34,9 @@ int run_check(const CheckArguments& arguments) {
   if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(scene, plan));
   if (outputs.wants("--html")) outputs.put("--html", gaits::to_html(scene, plan, faults));
   if (!outputs.to_stdout())
-    write_stdout(verification.holds()
-                     ? fmt::format("holds: {} stances, {} transfers, least safety factor {:.6g}\n",
-                                   verification.stances, verification.transfers, plan.safety_factor)
-                     : fmt::format("{}\n", fmt::join(faults, "\n")));
+    write_stdout(verification.holds() ? fmt::format("holds: {} stances, {} transfers, least safety factor {:.6g}\n",
+                                                    verification.stances, verification.transfers, plan.safety_factor)
+                                      : fmt::format("{}\n", fmt::join(faults, "\n")));
   outputs.commit();
   return verification.holds() ? exit_success : exit_failure;
 }

@@ -42,8 +42,7 @@ void nearest_first(std::vector<Item>& items) {
   if (std::is_sorted(items.begin(), items.end(), nearer)) return;
   if (std::adjacent_find(items.begin(), items.end(), not_farther) == items.end())
     std::reverse(items.begin(), items.end());
-  else
-    std::stable_sort(items.begin(), items.end(), nearer);
+  else std::stable_sort(items.begin(), items.end(), nearer);
 }
 
 /// The part of a column within reach of a foot.
@@ -165,8 +164,7 @@ bool ComCandidates::holds(int number, std::int32_t of_com) {
   if (com.verdict != Verdict::open) return com.verdict == Verdict::holds;
   ++asked_;
   const gaits::Feet feet = feet_of(pairs_[static_cast<std::size_t>(number)]);
-  if (scene_->terrain.distance(com.at, robot_.clearance) < robot_.clearance)
-    com.verdict = Verdict::too_near;
+  if (scene_->terrain.distance(com.at, robot_.clearance) < robot_.clearance) com.verdict = Verdict::too_near;
   else
     com.verdict =
         gaits::is_stable(*scene_, gaits::oracle_of(*scene_, feet, box_), com.at) ? Verdict::holds : Verdict::unstable;

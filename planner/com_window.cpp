@@ -43,7 +43,8 @@ Polygon clip_to_half_plane(const Polygon& polygon, const Eigen::Vector2d& direct
 Polygon reach_window(const gaits::Feet& feet, double reach_max) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Eigen::Vector2d low(-infinity, -infinity), high(infinity, infinity);
-  Eigen::Vector4d diagonal = Eigen::Vector4d::Constant(infinity);  // bounds in directions (1,1), (-1,1), (-1,-1), (1,-1)
+  Eigen::Vector4d diagonal =
+      Eigen::Vector4d::Constant(infinity);  // bounds in directions (1,1), (-1,1), (-1,-1), (1,-1)
   for (const auto& foot : feet) {
     if (!foot) continue;
     const Eigen::Vector2d& p = foot->position;
@@ -82,8 +83,7 @@ Polygon clip_to_goal(const Polygon& polygon, const gaits::Goal& goal) {
 
 Eigen::Vector2d point_in(const Polygon& polygon, double u, double v) {
   double area = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    area += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  for (std::size_t i = 2; i < polygon.size(); ++i) area += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
   if (!(area > 0)) return point_on_line(polygon, u);
   double left = u * area;
   for (std::size_t i = 2; i < polygon.size(); ++i) {

@@ -25,7 +25,7 @@ struct PlanArguments {
   std::optional<std::int64_t> seed;              ///< the rest override the scene's `search`
   std::optional<double> time_limit;              ///< [s]
   std::optional<std::string> planner, objective;
-  double effort = 1;                             ///< work spent on a better plan, relative to the usual
+  double effort = 1;  ///< work spent on a better plan, relative to the usual
   bool no_refine = false, explain = false, quiet = false, verbose = false;
 };
 

@@ -6,12 +6,12 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
-#include <ctime>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 #include "planner/signals.hpp"
 
@@ -51,8 +51,8 @@ namespace {
 std::atomic<bool> interruption_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may write it
 
-/// The second of two signals ends the program, unless they come together: a terminal's or a supervisor's one request may
-/// arrive twice.
+/// The second of two signals ends the program, unless they come together: a terminal's or a supervisor's one request
+/// may arrive twice.
 extern "C" void ask_interruption(int signal) {
   constexpr long together = 200'000'000;  // [ns]
   timespec now{};
@@ -125,12 +125,10 @@ bool stdout_takes_colour() {
 std::string one_line(std::string_view text) {
   std::string line;
   for (const char c : text) {
-    if (c == '\n')
-      line += "\\n";
+    if (c == '\n') line += "\\n";
     else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
       line += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    else
-      line += c;
+    else line += c;
   }
   return line;
 }

@@ -22,7 +22,8 @@ class ReaderGone : public OutputError {
 };
 
 /// Makes sure that descriptors 0, 1 and 2 are open, so that no output file can take their place, and that writing to
-/// a closed pipe, or beyond a limit of file size, is an error rather than a signal. A stream that was closed refuses to be written to.
+/// a closed pipe, or beyond a limit of file size, is an error rather than a signal. A stream that was closed refuses to
+/// be written to.
 void guard_standard_streams();
 
 /// While one exists, the first SIGINT asks for an early end instead of ending the program; the second one ends it.

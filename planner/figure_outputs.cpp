@@ -20,8 +20,8 @@ FigureOutputs::FigureOutputs(const std::vector<Request>& requests, const std::op
         throw InputError(
             fmt::format("{} - and {} -: standard output can hold one of them", one->option, other->option));
       if (one->file && other->file && one->file->same_as(other->file->path()))
-        throw InputError(fmt::format("{}: both {} and {} would write this file", other->file->path(), one->option,
-                                     other->option));
+        throw InputError(
+            fmt::format("{}: both {} and {} would write this file", other->file->path(), one->option, other->option));
     }
 }
 

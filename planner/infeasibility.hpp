@@ -35,7 +35,7 @@ struct ProofWindow {
 struct ProofLimits {
   /// Bounds evaluated, 0.5 to 1 us each; up to twice as many again for the reason of what is proven.
   std::uint64_t work = 600000;
-  double finest = 1.0 / 512;    ///< least length of a piece, relative to reach_max
+  double finest = 1.0 / 512;  ///< least length of a piece, relative to reach_max
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   std::function<bool()> stop = [] { return false; };  ///< asked now and then; true gives up
   /// Long terrain: look no further than this. What is proven is that the window cannot be crossed; its work does not
@@ -54,8 +54,8 @@ struct Impossibility {
   Obstacle obstacle = Obstacle::barrier;
   /// Where [m]: between the feet that the start and those that the goal can reach.
   std::optional<std::pair<double, double>> x, y;
-  std::string reason;        ///< a sentence: place, then the rules that suffice to forbid it, with their numbers
-  std::uint64_t work = 0;    ///< bounds evaluated
+  std::string reason;      ///< a sentence: place, then the rules that suffice to forbid it, with their numbers
+  std::uint64_t work = 0;  ///< bounds evaluated
 };
 
 /// Why no plan exists, if that can be proven within the limits; nothing otherwise. Const and re-entrant.

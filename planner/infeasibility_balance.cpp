@@ -30,7 +30,8 @@ class MomentRange {
   MomentRange(const Piece& first, const Piece& second, const Vector2d& force, const Vector2d& about, double rounding)
       : force_(force), rounding_(rounding) {
     lever_ = std::max({(first.a - about).norm(), (first.b - about).norm(), (second.a - about).norm(),
-                       (second.b - about).norm()}) + rounding;
+                       (second.b - about).norm()}) +
+             rounding;
     add_edges(first, about, 0);
     add_edges(second, about, 2);
     for (int k = 0; k < 4; ++k)

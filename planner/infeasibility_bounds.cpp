@@ -255,8 +255,9 @@ unsigned Bounds::may_hold(const Convex& coms, const Demand& demand, const Region
     const double radius = part.radius_about(centre) + slack_;
     unsigned here = region.parts_in(part.box(), slack_) & sought;
     if (here == 0 || excluded(part, centre, radius, demand)) continue;
-    const unsigned met = radius <= finest ? here
-                         : met_at(centre, demand) ? region.parts_in({centre, centre}, 0) & here : 0;
+    const unsigned met = radius <= finest         ? here
+                         : met_at(centre, demand) ? region.parts_in({centre, centre}, 0) & here
+                                                  : 0;
     found |= met;
     sought &= ~met;
     if ((here & ~met) == 0) continue;

@@ -192,10 +192,8 @@ void Graph::renew_thirds(Pair& pair) {
     pieces_.in_box(grown(pair.coms.box(), bounds_.reach() + bounds_.slack()), candidates);
   } else {
     for (const Pair::Third& third : pair.thirds) {
-      if (pieces_.is_halved(third.piece))
-        pieces_.leaves(third.piece, candidates);
-      else
-        kept.push_back(third);
+      if (pieces_.is_halved(third.piece)) pieces_.leaves(third.piece, candidates);
+      else kept.push_back(third);
     }
     if (candidates.empty()) return;
   }

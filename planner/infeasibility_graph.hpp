@@ -51,9 +51,9 @@ class Pieces {
   const gaits::Scene& scene_;
   double coarsest_, margin_;
   std::shared_ptr<const terrain::SpatialIndex> index_;
-  std::deque<Cell> cells_;  // references stay good
-  std::vector<int> points_;                // pieces of no length: the start feet
-  std::unordered_map<int, int> root_;      // by position in segments()
+  std::deque<Cell> cells_;             // references stay good
+  std::vector<int> points_;            // pieces of no length: the start feet
+  std::unordered_map<int, int> root_;  // by position in segments()
   std::vector<std::shared_ptr<std::vector<const terrain::Segment*>>> surroundings_;
 };
 
@@ -68,15 +68,15 @@ struct Pair {
     int piece;
     Ways ways;
   };
-  int first = 0, second = 0;   ///< pieces
-  Convex coms, middle_coms;    ///< of the pieces, of their middles
+  int first = 0, second = 0;  ///< pieces
+  Convex coms, middle_coms;   ///< of the pieces, of their middles
   Region region;
-  bool starts = false;         ///< a first stance: both legs are visible, and the COM is the given one
+  bool starts = false;  ///< a first stance: both legs are visible, and the COM is the given one
   bool listed = false;
-  std::vector<Third> thirds;   ///< pieces on which a foot may be placed or lifted from this stance
+  std::vector<Third> thirds;      ///< pieces on which a foot may be placed or lifted from this stance
   std::optional<unsigned> entry;  ///< parts in which the COM may be the last before the window
-  std::optional<Ways> goal;    ///< the COM may lie in the goal
-  double to_goal = 0;          ///< [m] guides the search
+  std::optional<Ways> goal;       ///< the COM may lie in the goal
+  double to_goal = 0;             ///< [m] guides the search
 };
 
 class Graph {
@@ -149,8 +149,8 @@ class Graph {
   bool exhausted_ = false;
   int since_clock_ = 0;
   Field field_;
-  std::deque<Pair> pairs_;  // references stay good
-  std::vector<int> starts_;  // nodes
+  std::deque<Pair> pairs_;                             // references stay good
+  std::vector<int> starts_;                            // nodes
   std::unordered_map<std::uint64_t, int> pair_index_;  // by pieces; -1: no stance
   std::unordered_map<std::uint64_t, Triple> triples_;
   Marks forward_;

@@ -11,9 +11,7 @@ using terrain::SpatialIndex;
 
 namespace {
 
-AlignedBox2d box_of(const Piece& piece) {
-  return AlignedBox2d(piece.a.cwiseMin(piece.b), piece.a.cwiseMax(piece.b));
-}
+AlignedBox2d box_of(const Piece& piece) { return AlignedBox2d(piece.a.cwiseMin(piece.b), piece.a.cwiseMax(piece.b)); }
 
 SpatialIndex::Box index_box(const AlignedBox2d& box) {
   return {box.min().x(), box.min().y(), box.max().x(), box.max().y()};

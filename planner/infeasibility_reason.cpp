@@ -158,9 +158,7 @@ void Explainer::place_between(Graph& graph) {
 
 // ---- words ------------------------------------------------------------------------------------------------------
 
-std::string number(double value) {
-  return fmt::format("{:.4g}", std::abs(value) < 5e-7 ? 0.0 : value);
-}
+std::string number(double value) { return fmt::format("{:.4g}", std::abs(value) < 5e-7 ? 0.0 : value); }
 
 std::string interval_words(const char* axis, const Interval& interval) {
   const std::string from = number(interval.first), to = number(interval.second);

@@ -81,10 +81,8 @@ std::optional<int> Graph::search() {
   spread(forward_, with_cost(starts_, 0), [&](int id, int cost) {
     if (least && cost >= *least) return -1;
     const Ways goal = ways_to_goal(pairs_[id / most_parts]);
-    if (goal.certain & part_of(id))
-      least = cost;
-    else if (goal.possible & part_of(id))
-      least = std::min(least.value_or(cost + 1), cost + 1);
+    if (goal.certain & part_of(id)) least = cost;
+    else if (goal.possible & part_of(id)) least = std::min(least.value_or(cost + 1), cost + 1);
     return least && *least == cost ? -1 : 1;
   });
   return least;

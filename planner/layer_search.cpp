@@ -9,23 +9,18 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr unsigned stop_interval = 64;  ///< looks at the limits per question whether to stop, which reads a clock
+constexpr unsigned stop_interval = 64;   ///< looks at the limits per question whether to stop, which reads a clock
 constexpr int finest_for_dead_ends = 4;  ///< level beyond which a way out of a dead end is not looked for
-constexpr int width_factor = 4;  ///< by which the layers before a dead end are widened each time it is met
+constexpr int width_factor = 4;          ///< by which the layers before a dead end are widened each time it is met
 
 }  // namespace
 
 LayerSearch::LayerSearch(StepProposals& proposals, const std::vector<Node>& starts, const LatticeResolution& resolution,
                          const stability::DisturbanceBox& box, double detour_weight)
-    : proposals_(&proposals),
-      scene_(&proposals.scene()),
-      robot_(proposals.robot()),
-      box_(box),
+    : proposals_(&proposals), scene_(&proposals.scene()), robot_(proposals.robot()), box_(box),
       detour_weight_(detour_weight),
       lattice_(scene_->terrain, resolution.spacing * robot_.reach_max, resolution.inset * robot_.reach_max),
-      coms_(*scene_, lattice_, resolution.columns, box),
-      starts_(starts),
-      refusals_(robot_.reach_max) {
+      coms_(*scene_, lattice_, resolution.columns, box), starts_(starts), refusals_(robot_.reach_max) {
   layers_.resize(1);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Node& start = starts[i];
@@ -111,7 +106,8 @@ void LayerSearch::expand(std::int32_t number, int level, int below) {
   if (node.layer + least_steps(to_goal(coms_.com(node.com).at, node.pair), robot_.reach_max) >= below) return;
   nodes_[number].level = level;
   nodes_[number].swings_any_way = gaits::swings_any_way(*scene_, coms_.com(node.com).at);
-  if (layers_.size() < static_cast<std::size_t>(node.layer) + 2) layers_.resize(static_cast<std::size_t>(node.layer) + 2);
+  if (layers_.size() < static_cast<std::size_t>(node.layer) + 2)
+    layers_.resize(static_cast<std::size_t>(node.layer) + 2);
   const auto pair = coms_[node.pair];
   lattice_.look_from(coms_.com(node.com).at, robot_.reach_min, robot_.reach_max);
   for (int of_landing = 0; of_landing <= level; ++of_landing) {
@@ -132,10 +128,8 @@ void LayerSearch::pop(std::size_t k, const Limits& limits) {
   const SearchNode node = nodes_[entry.node];
   if (node.layer + 1 != static_cast<int>(k)) return;  // since then it was reached sooner: its steps are there
   if (entry.lifted < 0) {
-    if (const auto rule = broken_placement_rule(node, entry.landing))
-      refuse(*rule, node);
-    else
-      push_steps(k, entry);
+    if (const auto rule = broken_placement_rule(node, entry.landing)) refuse(*rule, node);
+    else push_steps(k, entry);
     return;
   }
   if (entry.pair < 0) {
@@ -149,8 +143,8 @@ void LayerSearch::pop(std::size_t k, const Limits& limits) {
 
 void LayerSearch::reach(std::size_t k, const Entry& entry, std::int32_t number) {
   auto& com = coms_.com(number);
-  // Steps that were found from the stance when the free leg came from elsewhere keep the node that they were found from,
-  // unless it swings any way.
+  // Steps that were found from the stance when the free leg came from elsewhere keep the node that they were found
+  // from, unless it swings any way.
   const bool keep = com.node >= 0 && nodes_[com.node].level >= 0 && !nodes_[com.node].swings_any_way;
   if (com.node < 0 || keep) {
     com.node = static_cast<std::int32_t>(nodes_.size());
@@ -185,9 +179,8 @@ bool LayerSearch::run_layer(std::size_t k, const Limits& limits) {
 }
 
 bool LayerSearch::any_open(std::size_t end) const {
-  return std::any_of(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(end), [](const Layer& layer) {
-    return !layer.heap.empty() || layer.raised < layer.nodes.size();
-  });
+  return std::any_of(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(end),
+                     [](const Layer& layer) { return !layer.heap.empty() || layer.raised < layer.nodes.size(); });
 }
 
 /// A dead end is met where no step is left, or where layer after layer comes no nearer to the goal. Then the layers
@@ -268,7 +261,9 @@ std::vector<Node> LayerSearch::path() const {
     const auto stands = [&](int foothold) {
       return number[(placed + 1) % gaits::leg_count] == foothold || number[(placed + 2) % gaits::leg_count] == foothold;
     };
-    const int landing = !stands(to.first_foot) ? to.first_foot : !stands(to.second_foot) ? to.second_foot : node.old_foot;
+    const int landing = !stands(to.first_foot)    ? to.first_foot
+                        : !stands(to.second_foot) ? to.second_foot
+                                                  : node.old_foot;
     number[placed] = landing;
     next.feet[placed] = lattice_[landing];
     for (int leg = 0; leg < gaits::leg_count; ++leg)

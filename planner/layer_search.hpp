@@ -1,8 +1,8 @@
 // Fewest steps over a lattice of footholds and COMs, layer by layer: layer k holds the stances first reached in k
 // steps. A pass expands the most advanced stances of every layer, up to a width; the next pass is wider, and what a
 // narrower one left waits in its layer (complete anytime beam search: W. Zhang, AAAI 1998). Steps are checked when they
-// are about to be used, never before. When no step is left that could make the plan shorter, the plan is the shortest of
-// the lattice: `exhausted` says so. Deterministic.
+// are about to be used, never before. When no step is left that could make the plan shorter, the plan is the shortest
+// of the lattice: `exhausted` says so. Deterministic.
 #pragma once
 
 #include <cstdint>
@@ -51,14 +51,14 @@ class LayerSearch {
 
   static constexpr int no_bound = std::numeric_limits<int>::max();
   struct Limits {
-    int width = 8;                 ///< stances expanded per layer
+    int width = 8;  ///< stances expanded per layer
     /// Of each step that is legal, the COM is first moved towards the goal as far as halving finds it legal.
     bool sharpen = false;
-    int level = 0;                 ///< of the lattice; a dead end is searched on finer levels than this
-    int below = no_bound;          ///< only plans of fewer steps are of interest
+    int level = 0;         ///< of the lattice; a dead end is searched on finer levels than this
+    int below = no_bound;  ///< only plans of fewer steps are of interest
     std::uint64_t work = std::numeric_limits<std::uint64_t>::max();   ///< in all, as work() counts
     std::uint64_t stall = std::numeric_limits<std::uint64_t>::max();  ///< since the search last came nearer to the goal
-    std::function<bool()> stop = [] { return false; };  ///< asked often
+    std::function<bool()> stop = [] { return false; };                ///< asked often
   };
   enum class End { found, exhausted, width, limit };
   /// Goes on from where it was left. `found`: path() is shorter than `below`. `exhausted`: the lattice has no such
@@ -86,22 +86,22 @@ class LayerSearch {
   struct SearchNode {
     std::int32_t pair, com, parent;
     std::int32_t layer;
-    std::int32_t old_foot;  ///< where the free leg was lifted from; -1: nowhere
-    std::int32_t start;     ///< which of the starts, at layer 0
-    int level = -1;         ///< that it was expanded on
-    double detour = 0;      ///< what the COM's way so far has been longer than it came nearer to the goal [m]
+    std::int32_t old_foot;        ///< where the free leg was lifted from; -1: nowhere
+    std::int32_t start;           ///< which of the starts, at layer 0
+    int level = -1;               ///< that it was expanded on
+    double detour = 0;            ///< what the COM's way so far has been longer than it came nearer to the goal [m]
     bool swings_any_way = false;  ///< set when it is expanded
   };
   /// Steps from a stance that land at one place: first all of them, the landing not yet looked at; then, by the leg
   /// that is lifted, all COMs of a level of the pair that is left.
   struct Entry {
-    double key;                  ///< [m], smaller first
-    std::uint32_t number = 0;    ///< ties go by age
+    double key;                ///< [m], smaller first
+    std::uint32_t number = 0;  ///< ties go by age
     std::int32_t node;
     std::int32_t landing;
-    std::int32_t lifted = -1;    ///< -1: the landing has not been looked at
-    std::int32_t pair = -1;      ///< not yet asked for
-    std::int32_t last = -1;      ///< the COM that was tried last
+    std::int32_t lifted = -1;                     ///< -1: the landing has not been looked at
+    std::int32_t pair = -1;                       ///< not yet asked for
+    std::int32_t last = -1;                       ///< the COM that was tried last
     std::int16_t first_level = 0, level = 0;      ///< of the COMs
     bool sharpened = false;                       ///< its first legal COM has been
     bool has_led_on = false;                      ///< to some stance
@@ -151,7 +151,7 @@ class LayerSearch {
   const terrain::Foothold& foot(std::int32_t number) const { return lattice_[number]; }
   double detour(std::int32_t node, const ComCandidates::Com& to) const;  ///< [m]
   ToGoal to_goal(const Eigen::Vector2d& com, std::int32_t pair) const;
-  double key(const Eigen::Vector2d& com, std::int32_t pair) const;  ///< [m]
+  double key(const Eigen::Vector2d& com, std::int32_t pair) const;                         ///< [m]
   double key_of_step(std::int32_t landing, std::int32_t lifted, std::int32_t kept) const;  ///< [m]
 
   StepProposals* proposals_;

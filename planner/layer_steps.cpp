@@ -132,10 +132,8 @@ std::int32_t LayerSearch::sharpened(const Entry& entry, std::int32_t number) {
   for (int i = 0; i < halvings; ++i) {
     const double t = 0.5 * (low + high);
     const std::int32_t tried = coms_.try_one(entry.pair, begin + t * way);
-    if (tried >= 0 && feet_reach(entry, coms_.com(tried).at) && !broken_step_rule(entry, tried))
-      low = t, best = tried;
-    else
-      high = t;
+    if (tried >= 0 && feet_reach(entry, coms_.com(tried).at) && !broken_step_rule(entry, tried)) low = t, best = tried;
+    else high = t;
   }
   return best;
 }

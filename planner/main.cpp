@@ -39,10 +39,10 @@ std::string version() {
       "surefoot {}\nOMPL {}.{}.{}, NLopt {}.{}.{}, Eigen {}.{}.{}, Boost {}.{}.{}, GMP {}, yaml-cpp {}, "
       "nlohmann-json {}.{}.{}, CLI11 {}, fmt {}.{}.{}",
       SUREFOOT_VERSION, OMPL_MAJOR_VERSION, OMPL_MINOR_VERSION, OMPL_PATCH_VERSION, major, minor, bugfix,
-      EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, BOOST_VERSION / 100000,
-      BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, gmp_version, SUREFOOT_YAML_CPP_VERSION,
-      NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION,
-      FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
+      EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000,
+      BOOST_VERSION % 100, gmp_version, SUREFOOT_YAML_CPP_VERSION, NLOHMANN_JSON_VERSION_MAJOR,
+      NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION, FMT_VERSION / 10000,
+      FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
 
 struct Arguments {
@@ -71,12 +71,14 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   plan->add_option("--time-limit", a.time_limit, "seconds until the search gives up (default: the scene's, else 10)")
       ->type_name("S");
   plan->add_option("--planner", a.planner, fmt::format("{}", fmt::join(planner_names(), ", ")))->type_name("NAME");
-  plan->add_option("--objective", a.objective, fmt::format("{}", fmt::join(objective_names(), ", ")))->type_name("NAME");
+  plan->add_option("--objective", a.objective, fmt::format("{}", fmt::join(objective_names(), ", ")))
+      ->type_name("NAME");
   plan->add_option("--effort", a.effort, "work spent on a better plan, relative to the usual; 0: take the first")
       ->type_name("X");
   plan->add_flag("--no-refine", a.no_refine, "leave the plan as the search found it");
-  plan->add_flag("--explain", a.explain,
-                 "say what limits each step and what was left out; where there is no plan, what would help (takes longer)");
+  plan->add_flag(
+      "--explain", a.explain,
+      "say what limits each step and what was left out; where there is no plan, what would help (takes longer)");
   auto* quiet = plan->add_flag("-q,--quiet", a.quiet, "nothing but the result: no progress, no notes");
   plan->add_flag("-v,--verbose", a.verbose, "counts and times of each stage on standard error")->excludes(quiet);
   plan->footer(
@@ -122,14 +124,18 @@ CLI::App* add_query(CLI::App& app, Arguments& a) {
 }
 
 CLI::App* add_region(CLI::App& app, RegionArguments& a) {
-  CLI::App* region = app.add_subcommand("region", "Stability regions of a stance: where the COM may be, and what forbids the rest");
+  CLI::App* region =
+      app.add_subcommand("region", "Stability regions of a stance: where the COM may be, and what forbids the rest");
   region->add_option("SCENE", a.scene, scene_words);
   region->add_option("--posture", a.posture, "instead of a scene: a query line without com (JSON)")->type_name("FILE");
   region->add_option("--stance", a.stance, "two or three legs that stand (default: the scene's first stance)")
       ->type_name("LEG,LEG");
   region->add_option("--wrench", a.wrench, "one wrench p,q [1, m] instead of the box W")->type_name("P,Q");
-  region->add_option("--restitution", a.restitution, "two contacts: where they are frictionally stable, for this coefficient\n"
-                     "between 0 and 1 (default: that of the scene or posture)")->type_name("E");
+  region
+      ->add_option("--restitution", a.restitution,
+                   "two contacts: where they are frictionally stable, for this coefficient\n"
+                   "between 0 and 1 (default: that of the scene or posture)")
+      ->type_name("E");
   region->add_option("--window", a.window, "clip to this rectangle [m]")->type_name("XMIN,YMIN,XMAX,YMAX");
   region->add_option("--svg", a.svg, "draw it; - for standard output")->type_name("FILE");
   region->add_option("--json", a.json, "cells, areas and boundaries; - for standard output")->type_name("FILE");
@@ -140,24 +146,34 @@ CLI::App* add_region(CLI::App& app, RegionArguments& a) {
 }
 
 CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
-  CLI::App* simulate = app.add_subcommand("simulate", "Hybrid dynamics of a posture after a push: collisions, slides, rest or not");
-  simulate->add_option("POSTURE", a.posture, "a query line of one or two contacts (JSON), - for standard input; may have\n"
+  CLI::App* simulate =
+      app.add_subcommand("simulate", "Hybrid dynamics of a posture after a push: collisions, slides, rest or not");
+  simulate->add_option("POSTURE", a.posture,
+                       "a query line of one or two contacts (JSON), - for standard input; may have\n"
                        "restitution, gravity, q, q_rate, heights, heights_rate");
-  simulate->add_option("--scene", a.scene, "instead of a posture: two start feet of a scene file or canned scene")->type_name("SCENE");
+  simulate->add_option("--scene", a.scene, "instead of a posture: two start feet of a scene file or canned scene")
+      ->type_name("SCENE");
   simulate->add_option("--stance", a.stance, "which two (default: the scene's first stance)")->type_name("LEG,LEG");
   simulate->add_option("--restitution", a.restitution, "coefficient of restitution, between 0 and 1")->type_name("E");
   simulate->add_option("--com", a.com, "COM [m]")->type_name("X,Y");
   simulate->add_option("--q", a.q, "start: displacement and turn [m, m, rad]")->type_name("RX,RY,THETA");
   simulate->add_option("--q-rate", a.q_rate, "start: velocity [m/s, m/s, rad/s]")->type_name("VX,VY,OMEGA");
-  simulate->add_option("--heights", a.heights, "start, instead of --q: heights of the contacts and turn")->type_name("H1,H2,THETA");
-  simulate->add_option("--heights-rate", a.heights_rate, "start, instead of --q-rate: their rates")->type_name("U1,U2,OMEGA");
+  simulate->add_option("--heights", a.heights, "start, instead of --q: heights of the contacts and turn")
+      ->type_name("H1,H2,THETA");
+  simulate->add_option("--heights-rate", a.heights_rate, "start, instead of --q-rate: their rates")
+      ->type_name("U1,U2,OMEGA");
   simulate->add_option("--gravity", a.gravity, "[m/s^2] (default 9.81)")->type_name("G");
-  simulate->add_option("--neighbourhood", a.neighbourhood, "displacement at which the body has left [m] (default: a tenth of\n"
-                       "the distance of the contacts)")->type_name("D");
+  simulate
+      ->add_option("--neighbourhood", a.neighbourhood,
+                   "displacement at which the body has left [m] (default: a tenth of\n"
+                   "the distance of the contacts)")
+      ->type_name("D");
   simulate->add_option("--time-limit", a.time_limit, "simulated seconds (default 100)")->type_name("S");
   simulate->add_flag("--linearised", a.linearised, "the linearised dynamics about the posture");
-  simulate->add_option("--sample", a.sample, "random pushes; without com random COMs, without POSTURE random postures")->type_name("N");
-  simulate->add_option("--size", a.size, "of random pushes, relative to the distance of the contacts (default 1e-6)")->type_name("X");
+  simulate->add_option("--sample", a.sample, "random pushes; without com random COMs, without POSTURE random postures")
+      ->type_name("N");
+  simulate->add_option("--size", a.size, "of random pushes, relative to the distance of the contacts (default 1e-6)")
+      ->type_name("X");
   simulate->add_option("--seed", a.seed, "of random pushes (default 1)")->type_name("N");
   simulate->add_option("--svg", a.svg, "draw heights and angle over time; - for standard output")->type_name("FILE");
   simulate->add_option("--json", a.json, "outcome and events; - for standard output")->type_name("FILE");
@@ -217,8 +233,8 @@ int run(int count, char** words) {
   add_bench_options(*app.get_subcommand("bench"), arguments.bench);
   const CLI::App* maps = app.add_subcommand("maps", "List the canned scenes: what each exercises");
   if (count <= 1) {
-    report_error(fmt::format("a command is missing: {} (surefoot --help tells more)",
-                             fmt::join(command_names(app), ", ")));
+    report_error(
+        fmt::format("a command is missing: {} (surefoot --help tells more)", fmt::join(command_names(app), ", ")));
     return exit_bad_input;
   }
   try {

@@ -131,8 +131,7 @@ oc::SpaceInformationPtr make_space(StepProposals& proposals) {
 std::vector<Node> nodes_of(const ob::PathPtr& path) {
   std::vector<Node> nodes;
   auto* of_steps = dynamic_cast<oc::PathControl*>(path.get());
-  const auto& states =
-      of_steps ? of_steps->getStates() : path->as<ompl::geometric::PathGeometric>()->getStates();
+  const auto& states = of_steps ? of_steps->getStates() : path->as<ompl::geometric::PathGeometric>()->getStates();
   for (const ob::State* state : states) nodes.push_back(StanceSpace::of(state).node);
   return nodes;
 }

@@ -13,11 +13,11 @@
 namespace surefoot::planner {
 
 struct OmplRun {
-  std::string planner = "RRT";         ///< Layers, RRT, KPIECE1, EST or SST
-  std::uint32_t seed = 1;              ///< 1 .. gaits::greatest_seed
-  std::uint64_t iterations = 1000;     ///< budget: the same run ends at the same iteration
-  double goal_bias = 0.5;              ///< share of iterations that aim at the goal
-  std::string objective = "steps";     ///< what SST counts: steps, or distance of the COM
+  std::string planner = "RRT";      ///< Layers, RRT, KPIECE1, EST or SST
+  std::uint32_t seed = 1;           ///< 1 .. gaits::greatest_seed
+  std::uint64_t iterations = 1000;  ///< budget: the same run ends at the same iteration
+  double goal_bias = 0.5;           ///< share of iterations that aim at the goal
+  std::string objective = "steps";  ///< what SST counts: steps, or distance of the COM
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   std::function<bool()> interrupted = [] { return false; };
 };

@@ -27,10 +27,8 @@ int write_and_close(int descriptor, std::string_view text, bool flush) {
   int fault = 0;
   while (fault == 0 && !text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written >= 0)
-      text.remove_prefix(static_cast<std::size_t>(written));
-    else if (errno != EINTR)
-      fault = errno;
+    if (written >= 0) text.remove_prefix(static_cast<std::size_t>(written));
+    else if (errno != EINTR) fault = errno;
   }
   if (fault == 0 && flush && ::fsync(descriptor) != 0) fault = errno;
   if (::close(descriptor) != 0 && fault == 0) fault = errno;
@@ -113,9 +111,10 @@ bool OutputFile::same_as(const std::string& other) const {
   std::error_code ignored;
   if (!replaceable_) return false;
   // weakly_canonical leaves a name without any existing part as it is: "x" and "./x" would differ.
-  const auto place = [&](const std::string& name) { return fs::weakly_canonical(fs::absolute(name, ignored), ignored); };
-  return place(target_) == place(follow_links(other)) ||
-         fs::equivalent(target_, other, ignored);
+  const auto place = [&](const std::string& name) {
+    return fs::weakly_canonical(fs::absolute(name, ignored), ignored);
+  };
+  return place(target_) == place(follow_links(other)) || fs::equivalent(target_, other, ignored);
 }
 
 }  // namespace surefoot::planner

@@ -18,8 +18,8 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Writes the temporary file, to the disk; the target is untouched. What cannot be replaced is written now, before any
-  /// file takes its place. Throws OutputError.
+  /// Writes the temporary file, to the disk; the target is untouched. What cannot be replaced is written now, before
+  /// any file takes its place. Throws OutputError.
   void stage(std::string_view text);
   /// Puts what was staged in the place of the target.
   void commit();

@@ -83,9 +83,8 @@ FigureOutputs open_outputs(const PlanArguments& arguments) {
     if (plan_to_stdout && path == "-")
       throw terrain::InputError(
           fmt::format("{} -: standard output is taken by the plan; give -o a file name too", option));
-  return FigureOutputs(
-      {{"-o", arguments.output.value_or("-")}, {"--svg", arguments.svg}, {"--html", arguments.html}},
-      scene_file(arguments.scene));
+  return FigureOutputs({{"-o", arguments.output.value_or("-")}, {"--svg", arguments.svg}, {"--html", arguments.html}},
+                       scene_file(arguments.scene));
 }
 
 /// The refined plan where it holds, the plan as found where only that holds; `fault` where neither does.
@@ -144,8 +143,7 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
                    const FigureOutputs& outputs, const SearchOptions& options) {
   const OutputFile* file = outputs.file("-o");
   const std::string format = output_format(arguments);
-  if (!file)
-    write_stdout(written(scene, plan, format, arguments.explain, stdout_takes_colour()));
+  if (!file) write_stdout(written(scene, plan, format, arguments.explain, stdout_takes_colour()));
   else
     note(fmt::format("{}{}{}; {} is not written", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ",
                      plan.reason, file->path()));

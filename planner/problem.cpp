@@ -15,12 +15,12 @@ using gaits::Rule;
 
 namespace {
 
-constexpr int com_samples = 400;         ///< COMs tried per pair of start feet
-constexpr int goal_samples = 200;        ///< of these, drawn from the goal where the start feet reach it
-constexpr int most_moves = 60;           ///< of the safest of these towards where it is safest
-constexpr std::size_t keep_per_pair = 3; ///< first stances handed to the search per pair of start feet
-constexpr int first_step_tries = 64;     ///< codes tried to see whether a first step exists
-constexpr int climbing_tries = 8;        ///< beside the one that led on before, on the way to where a stance is safest
+constexpr int com_samples = 400;          ///< COMs tried per pair of start feet
+constexpr int goal_samples = 200;         ///< of these, drawn from the goal where the start feet reach it
+constexpr int most_moves = 60;            ///< of the safest of these towards where it is safest
+constexpr std::size_t keep_per_pair = 3;  ///< first stances handed to the search per pair of start feet
+constexpr int first_step_tries = 64;      ///< codes tried to see whether a first step exists
+constexpr int climbing_tries = 8;         ///< beside the one that led on before, on the way to where a stance is safest
 constexpr std::uint64_t goal_pairs = 30000;
 constexpr int coms_per_pair = 6;
 
@@ -101,9 +101,9 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   if (polygon.empty()) {
     const bool proven = no_com_balances(scene, stance.feet, oracle);
     choice.decided = choice.decided && proven;
-    choice.fault += fmt::format("{}no COM within reach of feet {} {} every disturbance",
-                                choice.fault.empty() ? "" : "; ", legs_of(stance),
-                                proven ? "balances" : "was found to balance");
+    choice.fault +=
+        fmt::format("{}no COM within reach of feet {} {} every disturbance", choice.fault.empty() ? "" : "; ",
+                    legs_of(stance), proven ? "balances" : "was found to balance");
     return;
   }
   const Polygon in_goal = clip_to_goal(polygon, scene.goal);
@@ -239,9 +239,9 @@ NearGoal near_goal(const gaits::Scene& scene) {
 
 std::optional<terrain::Foothold> pick(const gaits::Scene& scene, const NearGoal& near, double u) {
   const double at = u * near.sums.back();
-  const auto i = std::min(
-      static_cast<std::size_t>(std::lower_bound(near.sums.begin(), near.sums.end(), at) - near.sums.begin()),
-      near.sums.size() - 1);
+  const auto i =
+      std::min(static_cast<std::size_t>(std::lower_bound(near.sums.begin(), near.sums.end(), at) - near.sums.begin()),
+               near.sums.size() - 1);
   const terrain::Segment& segment = *near.segments[i];
   const double before = i > 0 ? near.sums[i - 1] : 0;
   return scene.terrain.foothold_at(segment.chain, segment.s_begin + near.begins[i] + (at - before));
@@ -280,7 +280,8 @@ GoalLook look_at_goal(const gaits::Scene& scene) {
   }
   return {false, false,
           fmt::format("among {} pairs of footholds near it, spread evenly, none carries a stable stance with the COM "
-                      "in the goal", goal_pairs)};
+                      "in the goal",
+                      goal_pairs)};
 }
 
 }  // namespace surefoot::planner

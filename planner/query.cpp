@@ -120,7 +120,8 @@ Contact read_contact(const json& value, const std::string& place) {
 }
 
 Question read_question(std::string_view line) {
-  static const std::vector<std::string> keys{"contacts", "com", "com_to", "rho", "kappa", "nu", "restitution", "com_tolerance"};
+  static const std::vector<std::string> keys{"contacts", "com", "com_to",      "rho",
+                                             "kappa",    "nu",  "restitution", "com_tolerance"};
   if (line.find_first_not_of(" \t\r") == std::string_view::npos) throw BadLine("empty line, a JSON object is expected");
   const json object = parse(line);
   if (!object.is_object()) throw BadLine(fmt::format("found {}, expected a JSON object", shown(object)));
@@ -161,7 +162,7 @@ struct Answer {
   stability::SafetyFactor factor;
   std::vector<std::string> modes;
   std::optional<double> lambda;
-  std::optional<double> com_tolerance;  // [m], of points
+  std::optional<double> com_tolerance;   // [m], of points
   std::optional<Frictional> frictional;  // of points on two contacts
   bool uncertain = false;
 };
@@ -181,7 +182,8 @@ Answer ask_point(const RobustOracle& oracle, const Question& question) {
     answer.com_tolerance = stability::com_tolerance(question.contacts, question.rho, question.box, question.com);
   if (const auto& e = question.restitution) {
     const stability::Posture& posture = oracle.posture();
-    answer.frictional = {stability::frictional_verdict(posture, question.com, *e), stability::psi(posture, question.com),
+    answer.frictional = {stability::frictional_verdict(posture, question.com, *e),
+                         stability::psi(posture, question.com),
                          stability::frictional_margins(posture, question.com, *e)};
   }
   return answer;
@@ -221,19 +223,15 @@ void write(std::string& out, const Answer& answer) {
   auto put = std::back_inserter(out);
   fmt::format_to(put, R"({{"equilibrium": {}, "robust": {}, "safety_factor": )", word(answer.equilibrium),
                  word(answer.robust));
-  if (std::isinf(sigma))
-    out += "\"inf\"";
-  else
-    fmt::format_to(put, "{}", sigma);
+  if (std::isinf(sigma)) out += "\"inf\"";
+  else fmt::format_to(put, "{}", sigma);
   fmt::format_to(put, R"(, "critical": "{}", "feasible_modes": [)", answer.factor.critical.name());
   for (std::size_t i = 0; i < answer.modes.size(); ++i)
     fmt::format_to(put, "{}\"{}\"", i == 0 ? "" : ", ", answer.modes[i]);
   out += ']';
   if (answer.lambda) fmt::format_to(put, R"(, "lambda": {})", *answer.lambda);
-  if (answer.com_tolerance && std::isinf(*answer.com_tolerance))
-    out += R"(, "com_tolerance": "inf")";
-  else if (answer.com_tolerance)
-    fmt::format_to(put, R"(, "com_tolerance": {})", *answer.com_tolerance);
+  if (answer.com_tolerance && std::isinf(*answer.com_tolerance)) out += R"(, "com_tolerance": "inf")";
+  else if (answer.com_tolerance) fmt::format_to(put, R"(, "com_tolerance": {})", *answer.com_tolerance);
   if (answer.frictional) write(out, *answer.frictional);
   if (answer.uncertain) out += R"(, "uncertain": true)";
   const auto& [p, q] = answer.factor.witness;

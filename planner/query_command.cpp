@@ -59,10 +59,8 @@ class QuerySession {
   void answer(std::string_view line) {
     ++number_;
     searched_ = 0;
-    if (skipping_ || line.size() > longest_query_line)
-      answer_too_long(out_, number_);
-    else
-      answer_query(out_, line, number_);
+    if (skipping_ || line.size() > longest_query_line) answer_too_long(out_, number_);
+    else answer_query(out_, line, number_);
     skipping_ = false;
     out_ += '\n';
   }

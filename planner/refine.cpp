@@ -166,8 +166,10 @@ Plan refine_unverified(const Scene& scene, const Plan& plan, const RefineOptions
     const double limit = i == 0 ? std::numeric_limits<double>::infinity() : weak_place * factors.least;
     const Swept swept = sweep(scene, out, timeline, factors, limit, windows_left, options);
     if (swept == Swept::out_of_work)
-      out.left_out.push_back({"refinement of the safer places", fmt::format("the plan is long: the {} weakest windows of it "
-                                                                            "had their turn", options.max_windows)});
+      out.left_out.push_back(
+          {"refinement of the safer places", fmt::format("the plan is long: the {} weakest windows of it "
+                                                         "had their turn",
+                                                         options.max_windows)});
     if (swept == Swept::out_of_time) out.left_out.push_back({"part of the refinement", "the time limit was reached"});
     if (swept != Swept::changed) break;
     factors = factors_of(scene, out);

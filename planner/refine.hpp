@@ -36,7 +36,7 @@ gaits::Plan refine_unverified(const gaits::Scene& scene, const gaits::Plan& plan
 struct Timeline;
 /// The part of it for one window of COMs first..last (RefineWindow), in place: true if anything changed. Factors above
 /// `cap` limit nothing.
-bool refine_window(const gaits::Scene& scene, gaits::Plan& plan, const Timeline& timeline, int first, int last, double cap,
-                   const RefineOptions& options);
+bool refine_window(const gaits::Scene& scene, gaits::Plan& plan, const Timeline& timeline, int first, int last,
+                   double cap, const RefineOptions& options);
 
 }  // namespace surefoot::planner

@@ -22,9 +22,9 @@ struct MovingPoint {
 /// least <= |x - foot| <= greatest for every x on the line from - to.
 struct ReachLimit {
   MovingPoint from, to, foot;
-  /// How far a limit is passed [m^2], <= 0 where it holds: sign 1 for the greatest distance `bound`, at the farther end;
-  /// sign -1 for the least, at the nearest point, whose derivative is that of the fixed mixture of the ends (envelope
-  /// theorem). Sets the gradient in x.
+  /// How far a limit is passed [m^2], <= 0 where it holds: sign 1 for the greatest distance `bound`, at the farther
+  /// end; sign -1 for the least, at the nearest point, whose derivative is that of the fixed mixture of the ends
+  /// (envelope theorem). Sets the gradient in x.
   double excess(int sign, double bound, const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
 };
 

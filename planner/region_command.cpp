@@ -47,7 +47,8 @@ void read_posture(const RegionArguments& arguments, Subject& subject) {
   const Node& root = document.root();
   root.allow_only({"contacts", "com", "rho", "kappa", "nu", "restitution"}, "posture");
   subject.figure.contacts = read_contacts(root, 1, 3);
-  for (std::size_t i = 1; i <= subject.figure.contacts.size(); ++i) subject.figure.contact_names.push_back(std::to_string(i));
+  for (std::size_t i = 1; i <= subject.figure.contacts.size(); ++i)
+    subject.figure.contact_names.push_back(std::to_string(i));
   subject.figure.radius_of_gyration = root.require("rho", "posture").positive("rho");
   subject.figure.box.kappa = root.require("kappa", "posture").not_negative("kappa");
   subject.figure.box.nu = root.require("nu", "posture").not_negative("nu");
@@ -62,10 +63,8 @@ Subject read_subject(const RegionArguments& arguments) {
                                      : "nothing to draw: expected a scene file or --posture FILE");
   if (arguments.posture && arguments.stance) throw InputError("--stance: only for a scene; a posture is one stance");
   Subject subject;
-  if (arguments.scene)
-    read_scene(arguments, subject);
-  else
-    read_posture(arguments, subject);
+  if (arguments.scene) read_scene(arguments, subject);
+  else read_posture(arguments, subject);
   if (arguments.wrench) {
     const std::vector<double> wrench = read_numbers("--wrench", *arguments.wrench, 2, "p,q");
     subject.figure.box = {{wrench[0], wrench[1]}, 0, 0};
@@ -97,8 +96,7 @@ int run_region(const RegionArguments& arguments) {
   FigureOutputs outputs({{"--svg", arguments.svg}, {"--json", arguments.json}},
                         arguments.scene ? scene_file(*arguments.scene) : arguments.posture);
   const gaits::RegionFigure& figure = subject.figure;
-  const stability::Region region =
-      stability::region(figure.contacts, figure.radius_of_gyration, figure.box, options);
+  const stability::Region region = stability::region(figure.contacts, figure.radius_of_gyration, figure.box, options);
   std::optional<stability::FrictionalRegion> frictional;
   if (subject.restitution) {
     stability::FrictionalRegionOptions same;

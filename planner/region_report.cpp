@@ -60,10 +60,8 @@ void describe_posture(std::string& out, const gaits::RegionFigure& figure) {
   }
   const auto& box = figure.box;
   fmt::format_to(put, "  rho {:.6g} m, ", figure.radius_of_gyration);
-  if (box.one_wrench())
-    fmt::format_to(put, "one wrench w: p = {:.6g}, q = {:.6g} m\n", box.centre.p, box.centre.q);
-  else
-    fmt::format_to(put, "disturbances W: |p| <= {:.6g}, |q| <= {:.6g} m\n", box.kappa, box.nu);
+  if (box.one_wrench()) fmt::format_to(put, "one wrench w: p = {:.6g}, q = {:.6g} m\n", box.centre.p, box.centre.q);
+  else fmt::format_to(put, "disturbances W: |p| <= {:.6g}, |q| <= {:.6g} m\n", box.kappa, box.nu);
 }
 
 void describe_modes(std::string& out, const gaits::RegionFigure& figure, const Region& region) {
@@ -81,7 +79,9 @@ void describe_modes(std::string& out, const gaits::RegionFigure& figure, const R
     double alone = 0;
     for (const RegionCell& cell : region.cells)
       if (cell.modes.size() == 1 && cell.modes.front() == share.mode) alone += cell.area;
-    modes.add({{share.mode.name()}, {fmt::format("{:.6g} m^2", share.area)}, {percent(share.area, region.equilibrium_area)},
+    modes.add({{share.mode.name()},
+               {fmt::format("{:.6g} m^2", share.area)},
+               {percent(share.area, region.equilibrium_area)},
                {percent(alone, region.equilibrium_area)}});
   }
   out += '\n' + modes.print(false);
@@ -95,7 +95,9 @@ void describe_modes(std::string& out, const gaits::RegionFigure& figure, const R
     const RegionCell& cell = region.cells[k];
     std::string names;
     for (const auto& mode : cell.modes) names += (names.empty() ? "" : " ") + mode.name();
-    cells.add({{std::to_string(k + 1)}, {fmt::format("{:.6g} m^2", cell.area)}, {percent(cell.area, region.equilibrium_area)},
+    cells.add({{std::to_string(k + 1)},
+               {fmt::format("{:.6g} m^2", cell.area)},
+               {percent(cell.area, region.equilibrium_area)},
                {fmt::format("({:.3g}, {:.3g})", cell.inside.x(), cell.inside.y())},
                {names.empty() ? "rest only: " + gaits::robust_name(figure.box) : names}});
   }
@@ -128,9 +130,11 @@ Tree frictional_tree(const FrictionalRegion& region) {
 
 void describe_frictional(std::string& out, const FrictionalRegion& region) {
   auto put = std::back_inserter(out);
-  fmt::format_to(put, "\nFrictional stability, restitution {:.6g} (gravity alone, within x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g} m)\n",
-                 region.restitution, region.window.min().x(), region.window.max().x(), region.window.min().y(),
-                 region.window.max().y());
+  fmt::format_to(
+      put,
+      "\nFrictional stability, restitution {:.6g} (gravity alone, within x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g} m)\n",
+      region.restitution, region.window.min().x(), region.window.max().x(), region.window.min().y(),
+      region.window.max().y());
   if (region.strip.isEmpty()) {
     out += "         no COM there can be balanced\n";
     return;
@@ -162,7 +166,8 @@ std::string region_to_json(const gaits::RegionFigure& figure, const Region& regi
   tree["cells_error"] = region.cells_error;
   tree["window"] = nullptr;
   if (region.window)
-    tree["window"] = {region.window->min().x(), region.window->min().y(), region.window->max().x(), region.window->max().y()};
+    tree["window"] = {region.window->min().x(), region.window->min().y(), region.window->max().x(),
+                      region.window->max().y()};
   tree["polyline_tolerance"] = region.curve_tolerance;
   if (!region.note.empty()) tree["note"] = region.note;
   tree["equilibrium"] = points(region.equilibrium);
@@ -204,8 +209,8 @@ std::string region_to_text(const gaits::RegionFigure& figure, const Region& regi
                  area(region.equilibrium_area, region.area_error));
   fmt::format_to(put, "{:<8} and sure to stay at rest {}, {} of it\n", gaits::robust_name(figure.box),
                  area(region.robust_area, region.area_error), percent(region.robust_area, region.equilibrium_area));
-  fmt::format_to(put, "         both to within {:.1g} m^2, cells together to within {:.1g} m^2: proved\n", region.area_error,
-                 region.cells_error);
+  fmt::format_to(put, "         both to within {:.1g} m^2, cells together to within {:.1g} m^2: proved\n",
+                 region.area_error, region.cells_error);
   if (region.window)
     fmt::format_to(put, "         clipped to x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g} m\n", region.window->min().x(),
                    region.window->max().x(), region.window->min().y(), region.window->max().y());

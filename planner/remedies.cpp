@@ -20,9 +20,7 @@ double greatest_change(Remedy remedy) { return remedy == Remedy::friction ? 8 : 
 bool grows(Remedy remedy) { return remedy == Remedy::friction || remedy == Remedy::reach; }
 
 /// Two decimals: what is tried is what is told.
-double factor_of(Remedy remedy, double change) {
-  return std::round(100 * (grows(remedy) ? change : 1 / change)) / 100;
-}
+double factor_of(Remedy remedy, double change) { return std::round(100 * (grows(remedy) ? change : 1 / change)) / 100; }
 
 terrain::Terrain with_friction(const terrain::Terrain& ground, double factor) {
   std::vector<terrain::Chain> chains(static_cast<std::size_t>(ground.chain_count()));

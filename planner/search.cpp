@@ -35,7 +35,8 @@ struct Turn {
 constexpr Turn auto_turns[] = {{"RRT", 0.7, 1000}, {"EST", 0.3, 2000}, {"RRT", 0.5, 4000}, {"KPIECE1", 0.3, 4000}};
 
 // Work of Layers, a third of a microsecond to one a unit.
-constexpr std::uint64_t stall_before_proof = 150'000;  ///< without progress: then it is time to ask whether there is a plan
+constexpr std::uint64_t stall_before_proof =
+    150'000;  ///< without progress: then it is time to ask whether there is a plan
 constexpr std::uint64_t greatest_stall = 1'500'000;
 // Relative to reach_max: a way from the start beyond which barriers are looked for near its end first, and how far
 // there.
@@ -68,12 +69,12 @@ std::uint32_t turn_seed(std::uint32_t seed, std::size_t turn) {
 
 void note_left_out(const gaits::Scene& scene, const ProposalCounts& counts, gaits::Plan& plan) {
   if (counts.swings_skipped > 0 && plan.planner != "Layers")  // which counts no landings
-    plan.left_out.push_back({fmt::format("swing test for {} of {} landings", counts.swings_skipped, counts.swings_asked),
-                             "no terrain within the least reach of the COM: the shortened leg turns any way"});
+    plan.left_out.push_back(
+        {fmt::format("swing test for {} of {} landings", counts.swings_skipped, counts.swings_asked),
+         "no terrain within the least reach of the COM: the shortened leg turns any way"});
   if (scene.criterion == gaits::Criterion::equilibrium)
     plan.left_out.push_back({"non-static contact modes", "criterion equilibrium: the robot braces actively"});
-  if (!scene.restitution)
-    plan.left_out.push_back({"frictional stability", "no restitution is given"});
+  if (!scene.restitution) plan.left_out.push_back({"frictional stability", "no restitution is given"});
   else if (!gaits::asks_frictional(scene.criterion))
     plan.left_out.push_back({"frictional stability", "the criterion does not ask for it"});
 }
@@ -195,8 +196,8 @@ class Search {
     // pass over all of it is cut off before it betters anything.
     const std::uint64_t spent = std::min(dear * search.work(), usual_improvement);
     const double usual = static_cast<double>(usual_improvement);
-    const auto work = static_cast<std::uint64_t>(
-        std::clamp(options_.effort * usual - static_cast<double>(spent), 0.0, 1e18));
+    const auto work =
+        static_cast<std::uint64_t>(std::clamp(options_.effort * usual - static_cast<double>(spent), 0.0, 1e18));
     if (work == 0) return;
     auto other = beside([&] { return search_elsewhere(start, work); });
     const std::uint64_t slice = std::max<std::uint64_t>(work / 20, 1), until = search.work() + work;
@@ -262,7 +263,7 @@ class Search {
       plan_.planner = run.planner;
       return shorten(proposals_, std::move(path), options_.objective);
     }
-    const char* end = options_.interrupted()       ? "before the search was interrupted"
+    const char* end = options_.interrupted()     ? "before the search was interrupted"
                       : Clock::now() < deadline_ ? "within the work a search may do"
                                                  : "within the time limit";
     // The counts are of OMPL's planners: Layers asks for no proposals and speaks for itself.

@@ -16,12 +16,12 @@
 namespace surefoot::planner {
 
 struct SearchOptions {
-  std::uint32_t seed = 1;       ///< 1 .. gaits::greatest_seed
-  double time_limit = 10;       ///< [s] wall time; seldom reached: searches end by the work they may do
-  std::string planner = "auto"; ///< one of planner_names()
+  std::uint32_t seed = 1;        ///< 1 .. gaits::greatest_seed
+  double time_limit = 10;        ///< [s] wall time; seldom reached: searches end by the work they may do
+  std::string planner = "auto";  ///< one of planner_names()
   std::string objective = "steps";
-  double effort = 1;            ///< work spent on a better plan, relative to the usual; 0: the first plan will do
-  bool prove = true;            ///< try to prove that there is no plan when none is found
+  double effort = 1;  ///< work spent on a better plan, relative to the usual; 0: the first plan will do
+  bool prove = true;  ///< try to prove that there is no plan when none is found
   /// Asked now and then, by several threads; true ends the search with the best plan so far.
   std::function<bool()> interrupted = [] { return false; };
   /// Told now and then how things stand, in words.
@@ -32,9 +32,9 @@ struct SearchOptions {
 const std::vector<std::string>& planner_names();
 
 /// A plan whose safety factors are filled in, or the reason there is none. Deterministic for a seed as long as the time
-/// limit is not reached, whatever the number of processors (two are used). The caller verifies. Throws terrain::InputError ("file:line:column: start: ...") for a
-/// start that is bad input (StartChoice::decided in problem.hpp), std::invalid_argument for a planner that is not in
-/// planner_names().
+/// limit is not reached, whatever the number of processors (two are used). The caller verifies. Throws
+/// terrain::InputError ("file:line:column: start: ...") for a start that is bad input (StartChoice::decided in
+/// problem.hpp), std::invalid_argument for a planner that is not in planner_names().
 gaits::Plan search(const gaits::Scene& scene, const SearchOptions& options);
 
 /// When a time limit [s] that began to run at `begin` is reached.

@@ -28,9 +28,7 @@ Node after_step(StepProposals& proposals, const Node& from, const terrain::Footh
 using Renaming = std::array<int, gaits::leg_count>;  ///< new name by old name
 constexpr Renaming same_names{0, 1, 2};
 
-Renaming after(const Renaming& first, const Renaming& then) {
-  return {then[first[0]], then[first[1]], then[first[2]]};
-}
+Renaming after(const Renaming& first, const Renaming& then) { return {then[first[0]], then[first[1]], then[first[2]]}; }
 
 Node renamed(StepProposals& proposals, const Node& node, const Renaming& name) {
   if (name == same_names) return node;

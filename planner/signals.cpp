@@ -31,14 +31,10 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 std::string_view last_line(int signal) {
   switch (signal) {
-    case SIGINT:
-      return "surefoot: error: ended by SIGINT\n";
-    case SIGTERM:
-      return "surefoot: error: ended by SIGTERM\n";
-    case SIGHUP:
-      return "surefoot: error: ended by SIGHUP\n";
-    default:
-      return "surefoot: error: ended by a signal\n";
+    case SIGINT: return "surefoot: error: ended by SIGINT\n";
+    case SIGTERM: return "surefoot: error: ended by SIGTERM\n";
+    case SIGHUP: return "surefoot: error: ended by SIGHUP\n";
+    default: return "surefoot: error: ended by a signal\n";
   }
 }
 

@@ -51,9 +51,9 @@ double positive(double value, const char* option) {
 void read_file(const std::string& path, Subject& subject) {
   const terrain::Document document = read_document(path);
   const Node& root = document.root();
-  root.allow_only(
-      {"contacts", "com", "rho", "kappa", "nu", "restitution", "gravity", "q", "q_rate", "heights", "heights_rate"},
-      "posture");
+  root.allow_only({"contacts", "com", "rho", "kappa", "nu", "restitution", "gravity", "q", "q_rate", "heights",
+                   "heights_rate"},
+                  "posture");
   subject.request.contacts = read_contacts(root, 1, 2);
   subject.request.rho = root.require("rho", "posture").positive("rho");
   if (const Node* com = root.find("com")) subject.request.com = read_point(*com, "com");
@@ -70,7 +70,8 @@ void read_scene(const SimulateArguments& a, Subject& subject) {
   const gaits::Scene scene = open_scene(*a.scene);
   const StanceInput stance = read_stance(scene, a.stance);
   if (stance.legs.size() != 2)
-    throw InputError(fmt::format("--stance: {} legs stand, expected two, for example --stance 1,2", stance.legs.size()));
+    throw InputError(
+        fmt::format("--stance: {} legs stand, expected two, for example --stance 1,2", stance.legs.size()));
   subject.title = stance.title;
   subject.request.contacts = stance.contacts;
   subject.request.rho = scene.robot.radius_of_gyration;
@@ -137,10 +138,8 @@ SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
   record.start = start_of(body, subject);
   record.run = stability::simulate(body, record.start, subject.request.options_for(body),
                                    [&record](const stability::HybridEvent& event) {
-                                     if (record.events.size() < most_events)
-                                       record.events.push_back(event);
-                                     else
-                                       ++record.omitted;
+                                     if (record.events.size() < most_events) record.events.push_back(event);
+                                     else ++record.omitted;
                                    });
   return record;
 }
@@ -164,7 +163,8 @@ int run_simulate(const SimulateArguments& arguments) {
     outputs.commit();
     return exit_success;
   }
-  if (!request.com) throw InputError("com is missing: expected in the posture, as the scene's start.com, or as --com x,y");
+  if (!request.com)
+    throw InputError("com is missing: expected in the posture, as the scene's start.com, or as --com x,y");
   const HybridBody body(request.contacts, *request.com, request.rho, request.gravity, arguments.linearised);
   const SimulateRecord record = record_run(body, subject);
   if (outputs.wants("--svg")) {

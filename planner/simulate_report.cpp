@@ -19,28 +19,17 @@ using Kind = HybridEvent::Kind;
 
 const char* kind_name(Kind kind) {
   switch (kind) {
-    case Kind::collision:
-      return "collision";
-    case Kind::bouncing:
-      return "bouncing";
-    case Kind::clattering:
-      return "clattering";
-    case Kind::chattering:
-      return "chattering";
-    case Kind::dies_out:
-      return "dies_out";
-    case Kind::mode:
-      return "mode";
-    case Kind::sample:
-      return "sample";
-    case Kind::stops:
-      return "stops";
-    case Kind::lifts:
-      return "lifts";
-    case Kind::slips:
-      return "slips";
-    default:
-      return "reaches";
+    case Kind::collision: return "collision";
+    case Kind::bouncing: return "bouncing";
+    case Kind::clattering: return "clattering";
+    case Kind::chattering: return "chattering";
+    case Kind::dies_out: return "dies_out";
+    case Kind::mode: return "mode";
+    case Kind::sample: return "sample";
+    case Kind::stops: return "stops";
+    case Kind::lifts: return "lifts";
+    case Kind::slips: return "slips";
+    default: return "reaches";
   }
 }
 
@@ -77,12 +66,10 @@ std::string ending(const HybridBody& body, const SimulateRecord& record) {
     case stability::HybridRun::Outcome::rest:
       return fmt::format("at rest after {:.9g} s, displaced by {:.3g} m and turned by {:.3g} rad", run.time,
                          body.excursion(run.state), run.state.theta);
-    case stability::HybridRun::Outcome::left:
-      return fmt::format("left its neighbourhood after {:.9g} s", run.time);
+    case stability::HybridRun::Outcome::left: return fmt::format("left its neighbourhood after {:.9g} s", run.time);
     case stability::HybridRun::Outcome::inconsistent:
       return fmt::format("no contact mode is consistent after {:.9g} s: only an impact could resolve it", run.time);
-    default:
-      return fmt::format("undecided: still moving after {:.9g} s and {} collisions", run.time, run.collisions);
+    default: return fmt::format("undecided: still moving after {:.9g} s and {} collisions", run.time, run.collisions);
   }
 }
 

@@ -15,7 +15,8 @@ using terrain::InputError;
 std::vector<int> legs_of(const std::string& text) {
   const char* form = "two or three legs as 1,2 or 1,2,3";
   const auto commas = static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
-  if (commas != 1 && commas != 2) throw InputError(fmt::format("--stance: found {}, expected {}", one_line(text), form));
+  if (commas != 1 && commas != 2)
+    throw InputError(fmt::format("--stance: found {}, expected {}", one_line(text), form));
   std::vector<int> legs;
   for (const double value : read_numbers("--stance", text, commas + 1, form)) {
     const int leg = value == 1 ? 0 : value == 2 ? 1 : value == 3 ? 2 : -1;

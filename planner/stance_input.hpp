@@ -17,8 +17,8 @@ struct StanceInput {
   std::string title;
 };
 
-/// `stance` is LEG,LEG or LEG,LEG,LEG from 1; without it the legs that carry the first stance, as far as the scene says.
-/// Throws InputError where it is neither, or a leg starts in the air.
+/// `stance` is LEG,LEG or LEG,LEG,LEG from 1; without it the legs that carry the first stance, as far as the scene
+/// says. Throws InputError where it is neither, or a leg starts in the air.
 StanceInput read_stance(const gaits::Scene& scene, const std::optional<std::string>& stance);
 
 }  // namespace surefoot::planner

@@ -133,9 +133,7 @@ bool ComGoal::isSatisfied(const ob::State* state, double* distance) const {
   return isSatisfied(state);
 }
 
-double ComGoal::distanceGoal(const ob::State* state) const {
-  return goal_->distance(StanceSpace::of(state).node.com);
-}
+double ComGoal::distanceGoal(const ob::State* state) const { return goal_->distance(StanceSpace::of(state).node.com); }
 
 void ComGoal::sampleGoal(ob::State* state) const {
   auto& s = StanceSpace::of(state);

@@ -108,8 +108,8 @@ class DirectedSteps : public ompl::control::DirectedControlSampler {
       : ompl::control::DirectedControlSampler(si), proposals_(&proposals) {}
   unsigned int sampleTo(ompl::control::Control* control, const ompl::base::State* source,
                         ompl::base::State* destination) override;
-  unsigned int sampleTo(ompl::control::Control* control, const ompl::control::Control*,
-                        const ompl::base::State* source, ompl::base::State* destination) override {
+  unsigned int sampleTo(ompl::control::Control* control, const ompl::control::Control*, const ompl::base::State* source,
+                        ompl::base::State* destination) override {
     return sampleTo(control, source, destination);
   }
 

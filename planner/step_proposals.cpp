@@ -47,8 +47,7 @@ void StepProposals::prepare(const Node& from) {
   stretch_total_ = 0;
   for (const auto& stretch : stretches_) stretch_total_ += stretch.s_end - stretch.s_begin;
   // With nothing nearer than the least reach the free leg, shortened to it, turns any way.
-  swings_freely_ =
-      !from.feet[from.free_leg] || terrain.distance(from.com, robot_.reach_min) > scene_->robot.reach_min;
+  swings_freely_ = !from.feet[from.free_leg] || terrain.distance(from.com, robot_.reach_min) > scene_->robot.reach_min;
 }
 
 std::optional<terrain::Foothold> StepProposals::landing(double u) const {

@@ -46,10 +46,8 @@ std::optional<Certificate> pair_certificate(int i, int j, const AllCorners<n>& a
     if (a >= 0 && b >= 0) return std::nullopt;
     if (a < 0 && b < 0) continue;
     const double limit = b / (b - a);
-    if (a < 0)
-      low = std::max(low, limit);
-    else
-      high = std::min(high, limit);
+    if (a < 0) low = std::max(low, limit);
+    else high = std::min(high, limit);
     if (!(low < high)) return std::nullopt;
   }
   const double theta = 0.5 * (low + high);
@@ -134,8 +132,8 @@ Meeting meets_box(const RowList<double>& rows, const DisturbanceBox& box) {
   return middle_is_witness(rows, box) ? Meeting::yes : Meeting::uncertain;
 }
 
-bool two_rows_miss_box(const std::array<const RowList<double>*, 3>& coefficients, double sign, const DisturbanceBox& box,
-                       double error_factor) {
+bool two_rows_miss_box(const std::array<const RowList<double>*, 3>& coefficients, double sign,
+                       const DisturbanceBox& box, double error_factor) {
   const RowList<double>& first = *coefficients[0];
   AllCorners<12> at;
   std::array<double, max_rows> errors;

@@ -108,7 +108,7 @@ Meeting meets_box(const RowList<double>& rows, const DisturbanceBox& box);
 /// Whether a positive combination of two rows, times `sign`, is negative on the box for all three row lists, the
 /// Bernstein coefficients of rows on an interval (the errors are those of the first list, times the factor): no point
 /// of the box then satisfies all rows, times `sign`, anywhere on it.
-bool two_rows_miss_box(const std::array<const RowList<double>*, 3>& coefficients, double sign, const DisturbanceBox& box,
-                       double error_factor);
+bool two_rows_miss_box(const std::array<const RowList<double>*, 3>& coefficients, double sign,
+                       const DisturbanceBox& box, double error_factor);
 
 }  // namespace surefoot::stability

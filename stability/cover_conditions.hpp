@@ -11,14 +11,16 @@ namespace surefoot::stability {
 
 /// nu |moment| + slack < rho^2 (Z_y - kappa |Z_x|): Z . M^-1 v > 0 at the four corners of W.
 template <class K>
-bool positive_on_corners_at(const Row<K>& z, const K& moment, const K& rho2, const DisturbanceBox& box, const K& slack) {
+bool positive_on_corners_at(const Row<K>& z, const K& moment, const K& rho2, const DisturbanceBox& box,
+                            const K& slack) {
   const auto absolute = [](const K& k) -> K { return k < 0 ? K(-k) : k; };
   return K(box.nu) * absolute(moment) + slack < rho2 * (z.one - K(box.kappa) * absolute(z.p));
 }
 
 /// rho^2 Z . C + moment s_z + slack < 0: the force along C reads negative.
 template <class K>
-bool negative_on_edge_at(const Row<K>& z, const K& moment, const Vec2<K>& c, const K& s, const K& rho2, const K& slack) {
+bool negative_on_edge_at(const Row<K>& z, const K& moment, const Vec2<K>& c, const K& s, const K& rho2,
+                         const K& slack) {
   return rho2 * (z.p * c.x + z.one * c.y) + moment * s + slack < 0;
 }
 

@@ -201,7 +201,9 @@ Covector DualCertificate::propose_breaks(const Frame<double>& frame) const {
     most = press;
     best = {{y0, y1, y2}, true};
   };
-  const auto single = [&](int l, double y) { return std::array<double, 3>{l == 0 ? y : 0, l == 1 ? y : 0, l == 2 ? y : 0}; };
+  const auto single = [&](int l, double y) {
+    return std::array<double, 3>{l == 0 ? y : 0, l == 1 ? y : 0, l == 2 ? y : 0};
+  };
   const auto balanced = [&](int i, int j, double value_i, double value_j) {
     if (!(value_i * value_j < 0)) return;
     const double share = value_j / (value_j - value_i);
@@ -253,11 +255,12 @@ Row<K> covector_about_contact(const Posture& posture, const ModeSpec& spec, cons
 /// Conditions (*) between the COMs of two frames.
 template <class K>
 bool holds_between(const ModeSpec& spec, const LoadedEdges& edges, const DisturbanceBox& box, const Row<K>& za,
-                   const Frame<K>& fa, const Row<K>& zb, const Frame<K>& fb, const K& corner_slack, const K& edge_slack) {
+                   const Frame<K>& fa, const Row<K>& zb, const Frame<K>& fb, const K& corner_slack,
+                   const K& edge_slack) {
   const Vec2<K>&ra = fa.at[spec.i].r, &rb = fb.at[spec.i].r;
   const K half(0.5);
-  const std::array<K, 3> moment{moment_about_com(za, ra),
-                                half * (moment_about_com(za, rb) + moment_about_com(zb, ra)), moment_about_com(zb, rb)};
+  const std::array<K, 3> moment{moment_about_com(za, ra), half * (moment_about_com(za, rb) + moment_about_com(zb, ra)),
+                                moment_about_com(zb, rb)};
   if (!positive_on_corners(za, zb, moment, fa.rho2, box, corner_slack)) return false;
   for (int k = 0; k < edges.count; ++k) {
     const ContactTerms<K>&ta = fa.at[edges.at[k].contact], &tb = fb.at[edges.at[k].contact];
@@ -304,8 +307,8 @@ bool DualCertificate::proves(const Covector& a, const Frame<Dyadic>& frame_a, co
   const TwistCone<Dyadic> cone = twist_cone<Dyadic>(line_.posture, spec_);
   if (!in_cone(spec_, a, cone) || !in_cone(spec_, b, cone)) return false;
   const Dyadic none(0);
-  return holds_between<Dyadic>(spec_, edges_, line_.box, covector_about_contact<Dyadic>(line_.posture, spec_, a), frame_a,
-                               covector_about_contact<Dyadic>(line_.posture, spec_, b), frame_b, none, none);
+  return holds_between<Dyadic>(spec_, edges_, line_.box, covector_about_contact<Dyadic>(line_.posture, spec_, a),
+                               frame_a, covector_about_contact<Dyadic>(line_.posture, spec_, b), frame_b, none, none);
 }
 
 bool DualCertificate::proves_along_axis(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const {

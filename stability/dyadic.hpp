@@ -11,13 +11,14 @@ class Dyadic {
  public:
   Dyadic() = default;
   /// Exact for every finite double.
-  Dyadic(double value);  // NOLINT: a double is a dyadic number
+  Dyadic(double value);                                      // NOLINT: a double is a dyadic number
   Dyadic(int value) : Dyadic(static_cast<double>(value)) {}  // NOLINT
 
   // Numbers of up to 512 bits live on the stack: products of four doubles, sums of such.
   using Integer = boost::multiprecision::number<
       boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
-                                             boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
+                                             boost::multiprecision::unchecked,
+                                             std::allocator<boost::multiprecision::limb_type>>,
       boost::multiprecision::et_off>;
   const Integer& mantissa() const { return mantissa_; }
   long exponent() const { return exponent_; }

@@ -75,8 +75,8 @@ bool mode_leads_back(GravityQuery& query, const ModeSpec& spec) {
   if (fast != Answer::unknown) return fast == Answer::yes;
   GravityRows<Dyadic> exact;
   emit_rows(query.exact_frame(), spec, exact);
-  return leads_back(exact.count, forces, exact.d ? exact.d->sign() : 1,
-                    [&](int k) { return exact.value[k].sign(); }) == Answer::yes;
+  return leads_back(exact.count, forces, exact.d ? exact.d->sign() : 1, [&](int k) { return exact.value[k].sign(); }) ==
+         Answer::yes;
 }
 
 const ModeSpec* failed_mode(const Posture& posture, GravityQuery& query) {
@@ -155,10 +155,8 @@ FrictionalVerdict frictional_verdict(const Posture& posture, const Eigen::Vector
   verdict.clattering = clatters_to_rest(query, restitution);
   verdict.equilibrium = PointQuery(posture, com, gravity).equilibrium();
   if (!verdict.equilibrium) return verdict;
-  if (const ModeSpec* spec = failed_mode(posture, query))
-    verdict.failed_mode = contact_mode(*spec, posture.contacts());
-  else
-    verdict.kinematic_strong = true;
+  if (const ModeSpec* spec = failed_mode(posture, query)) verdict.failed_mode = contact_mode(*spec, posture.contacts());
+  else verdict.kinematic_strong = true;
   return verdict;
 }
 

@@ -3,7 +3,8 @@
 //   kinematic-strong equilibrium  in every non-static mode the forces are possible and the accelerations lead back
 //   clattering convergence (10)   alternating collisions with restitution e die out in finite time
 //   upward-facing ground          n_iy > 0 for both contacts
-// Model: rigid body, straight ground at each contact, Coulomb friction, collisions by [OR-H, (4)] (no friction impulse).
+// Model: rigid body, straight ground at each contact, Coulomb friction, collisions by [OR-H, (4)] (no friction
+// impulse).
 //
 // Guarantee: verdicts are decided for the doubles given: by doubles with a bound of their rounding error, else in exact
 // numbers. All inequalities are strict: a boundary counts as not stable, and so does a foot exactly in line with the
@@ -48,7 +49,7 @@ double greatest_restitution(double root_psi);
 struct FrictionalMargins {
   double psi = 0;          ///< sqrt(psi_1 psi_2) - threshold; the root counts as negative where psi_i < 0
   double restitution = 0;  ///< clattering converges for every e below this
-  double com = 0;          ///< [m] every COM within this distance is stable too: a lower bound, 0 where the verdict is no
+  double com = 0;  ///< [m] every COM within this distance is stable too: a lower bound, 0 where the verdict is no
 };
 FrictionalMargins frictional_margins(const Posture& posture, const Eigen::Vector2d& com, double restitution);
 

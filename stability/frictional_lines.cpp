@@ -96,7 +96,8 @@ FrictionalLine FrictionalLines::at(double x) {
   // (10) is an equality where X^2 = threshold^2 D_1 D_2 and X < 0.
   const Polynomial of_x = on_vertical(normal_product(frame_, 0, 1), s);
   const Polynomial squared = product(of_x, of_x);
-  const Polynomial of_d = product(on_vertical(normal_product(frame_, 0, 0), s), on_vertical(normal_product(frame_, 1, 1), s));
+  const Polynomial of_d =
+      product(on_vertical(normal_product(frame_, 0, 0), s), on_vertical(normal_product(frame_, 1, 1), s));
   const double threshold = clattering_threshold(restitution_);
   Polynomial excess;
   for (std::size_t k = 0; k < excess.size(); ++k) excess[k] = squared[k] - threshold * threshold * of_d[k];
@@ -116,10 +117,8 @@ void FrictionalLines::decide(FrictionalLine& line, double low, double high) cons
   const std::array<bool, frictional_part_count> holds{strong, clatters, strong && clatters && upward_};
   for (int k = 0; k < frictional_part_count; ++k) {
     if (!holds[k]) continue;
-    if (Intervals& known = line.part[k]; !known.empty() && known.back().high == low)
-      known.back().high = high;
-    else
-      known.push_back({low, high});
+    if (Intervals& known = line.part[k]; !known.empty() && known.back().high == low) known.back().high = high;
+    else known.push_back({low, high});
   }
 }
 

@@ -1,5 +1,5 @@
-// The exact one-dimensional problem behind frictional_region.hpp: the parts of a vertical line of COMs on which a posture
-// is kinematic-strong, clattering converges, or both.
+// The exact one-dimensional problem behind frictional_region.hpp: the parts of a vertical line of COMs on which a
+// posture is kinematic-strong, clattering converges, or both.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,7 +20,7 @@ enum FrictionalPartIndex { kinematic_part, clattering_part, stable_part, frictio
 using FrictionalLengths = std::array<double, frictional_part_count>;
 
 struct FrictionalLine {
-  double x = 0;  ///< [m]
+  double x = 0;                                       ///< [m]
   std::array<Intervals, frictional_part_count> part;  ///< heights [m], ascending
 
   FrictionalLengths lengths() const;

@@ -32,8 +32,8 @@ double radius_of_mode(const Frame<Poly2>& frame, const ModeSpec& spec) {
   return std::min(radius, back);
 }
 
-/// (10) says -X > theta sqrt(D_1) sqrt(D_2); sqrt(D_i) = |(rho n_i, r_i x n_i)| changes by at most |n_i| per metre, X by
-/// at most |gradient| r + |n_1| |n_2| r^2.
+/// (10) says -X > theta sqrt(D_1) sqrt(D_2); sqrt(D_i) = |(rho n_i, r_i x n_i)| changes by at most |n_i| per metre, X
+/// by at most |gradient| r + |n_1| |n_2| r^2.
 double radius_of_clattering(const Frame<Poly2>& frame, double threshold) {
   const Poly2 x = normal_product(frame, 0, 1);
   double root[2], size[2];

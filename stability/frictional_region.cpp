@@ -126,7 +126,6 @@ std::array<std::vector<RegionPolygon>, frictional_part_count> trace(FrictionalLi
   return polygons;
 }
 
-
 /// All of the strip: the panel with the greatest error is halved until the errors together are within the tolerance.
 std::vector<Panel> integrate_strip(FrictionalLines& lines, double from, double to, double tolerance) {
   std::vector<Panel> panels;  // a heap

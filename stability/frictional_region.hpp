@@ -1,5 +1,5 @@
-// Where the COM of a stance on two contacts may be for frictional stability [OR-H, section V.C, Fig. 3]: within R_EQ, the
-// vertical strip of COMs that gravity alone can be balanced from,
+// Where the COM of a stance on two contacts may be for frictional stability [OR-H, section V.C, Fig. 3]: within R_EQ,
+// the vertical strip of COMs that gravity alone can be balanced from,
 //   kinematic-strong equilibrium  enlarged by a greater radius of gyration
 //   clattering convergence (10)   made smaller by it
 //   both, on upward-facing ground: frictionally stable (Theorem 3)
@@ -32,9 +32,9 @@ struct FrictionalRegionOptions {
 };
 
 struct FrictionalPart {
-  double area = 0, error = 0;            ///< [m^2]
-  /// Without holes; the first half of the vertices is the lower side from left to right, the second the upper side back.
-  /// Where a part divides or unites, polygons meet along a vertical line.
+  double area = 0, error = 0;  ///< [m^2]
+  /// Without holes; the first half of the vertices is the lower side from left to right, the second the upper side
+  /// back. Where a part divides or unites, polygons meet along a vertical line.
   std::vector<RegionPolygon> polygons;
 };
 
@@ -44,7 +44,7 @@ struct FrictionalRegion {
   Eigen::AlignedBox2d strip;   ///< R_EQ in the window; empty if no COM there is balanced
   bool upward = false;         ///< the ground faces upward under both feet; otherwise `stable` is empty
   FrictionalPart kinematic_strong, clattering, stable;
-  int lines = 0;               ///< on which verdicts were decided: a measure of the work
+  int lines = 0;  ///< on which verdicts were decided: a measure of the work
 
   double equilibrium_area() const { return strip.isEmpty() ? 0 : strip.volume(); }
 };

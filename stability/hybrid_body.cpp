@@ -24,13 +24,8 @@ double sin_minus(double x) {
 
 HybridBody::HybridBody(std::span<const Contact> contacts, const Vector2d& com, double radius_of_gyration,
                        double gravity, bool linearised)
-    : count_(static_cast<int>(contacts.size())),
-      com_(com),
-      rho_(radius_of_gyration),
-      rho2_(rho_ * rho_),
-      gravity_(gravity),
-      extent_(rho_),
-      linearised_(linearised) {
+    : count_(static_cast<int>(contacts.size())), com_(com), rho_(radius_of_gyration), rho2_(rho_ * rho_),
+      gravity_(gravity), extent_(rho_), linearised_(linearised) {
   assert((count_ == 1 || count_ == 2) && rho_ > 0 && gravity > 0);
   for (int i = 0; i < count_; ++i) {
     ground_[i] = contacts[i].position;

@@ -31,10 +31,8 @@ class Run {
     while (!ended_) {
       if (time_ >= options_.time_limit || run_.collisions + work_of_mode * run_.modes > options_.most_collisions)
         end(undecided);
-      else if (body_.excursion(state_) > options_.neighbourhood)
-        end(left);
-      else if (!impacts())
-        none_closed() ? fly() : move();
+      else if (body_.excursion(state_) > options_.neighbourhood) end(left);
+      else if (!impacts()) none_closed() ? fly() : move();
     }
     run_.state = state_;
     run_.time = time_;
@@ -273,17 +271,11 @@ class Run {
         state_.slip[i] = 0;
         if (both) stop();  // with two closed contacts there is one motion: both stop
         return tell(Kind::stops, i);
-      case lifts:
-        return tell(Kind::lifts, i);
-      case slips:
-        return tell(Kind::slips, i);
-      case reaches:
-        state_.h[i] = 0;
-        return tell(Kind::reaches, i);
-      case leaves:
-        return end(HybridRun::Outcome::left);
-      case time:
-        return end(HybridRun::Outcome::undecided);
+      case lifts: return tell(Kind::lifts, i);
+      case slips: return tell(Kind::slips, i);
+      case reaches: state_.h[i] = 0; return tell(Kind::reaches, i);
+      case leaves: return end(HybridRun::Outcome::left);
+      case time: return end(HybridRun::Outcome::undecided);
     }
   }
 
@@ -300,14 +292,10 @@ class Run {
 
 const char* name(HybridRun::Outcome outcome) {
   switch (outcome) {
-    case HybridRun::Outcome::rest:
-      return "rest";
-    case HybridRun::Outcome::left:
-      return "left";
-    case HybridRun::Outcome::inconsistent:
-      return "inconsistent";
-    default:
-      return "undecided";
+    case HybridRun::Outcome::rest: return "rest";
+    case HybridRun::Outcome::left: return "left";
+    case HybridRun::Outcome::inconsistent: return "inconsistent";
+    default: return "undecided";
   }
 }
 

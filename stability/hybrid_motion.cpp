@@ -66,14 +66,10 @@ class Motion {
     const BodyState s = unpack(y);
     const int i = guard.contact;
     switch (guard.cause) {
-      case MotionEnd::Cause::leaves:
-        return limits_.excursion - body_.excursion(s);
-      case MotionEnd::Cause::reaches:
-        return s.h[i];
-      case MotionEnd::Cause::stops:
-        return mode_.at[i] == ContactState::slides_along ? s.slip[i] : -s.slip[i];
-      default:
-        break;
+      case MotionEnd::Cause::leaves: return limits_.excursion - body_.excursion(s);
+      case MotionEnd::Cause::reaches: return s.h[i];
+      case MotionEnd::Cause::stops: return mode_.at[i] == ContactState::slides_along ? s.slip[i] : -s.slip[i];
+      default: break;
     }
     const auto m = motion_in(body_, s, mode_);
     if (!m) return -1;

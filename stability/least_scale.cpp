@@ -113,7 +113,7 @@ void set_dual(LeastScale<K>& result, const ScaledRows<K>& rows) {
   if (result.empty || result.active == 0) return;
   if (result.active == 2) {
     const K one(1), zero(0);
-    const Vec2<K> &v = result.v, x{v.x < 0 ? K(-one) : one, zero}, y{zero, v.y < 0 ? K(-one) : one};
+    const Vec2<K>&v = result.v, x{v.x < 0 ? K(-one) : one, zero}, y{zero, v.y < 0 ? K(-one) : one};
     const bool x_side = absolute(v.x) >= absolute(v.y);
     if (set_dual(result, rows, x_side ? x : y)) return;
     if (absolute(v.x) == absolute(v.y) && set_dual(result, rows, x_side ? y : x)) return;
@@ -429,7 +429,10 @@ ScaleQuery::Outcome ScaleQuery::in_fractions(const ModeSpec& spec, double bound,
   }
   if (!any) return Outcome::not_below;
   const auto number = [](const Fraction& value) { return value.convert_to<double>(); };
-  scale = {number(found_->s), {number(found_->v.x * Fraction(box_.kappa)), number(found_->v.y * Fraction(box_.nu))}, {}, true};
+  scale = {number(found_->s),
+           {number(found_->v.x * Fraction(box_.kappa)), number(found_->v.y * Fraction(box_.nu))},
+           {},
+           true};
   return Outcome::found;
 }
 

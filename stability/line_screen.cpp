@@ -86,7 +86,8 @@ bool LineInterval::excludes_by_direction(const ModeSpec& spec) const {
     return wrong_way(rotation_row(a.at[spec.i]), 1) && wrong_way(rotation_row(b.at[spec.i]), 1);
   if (spec.kind != ModeSpec::Kind::two_slides) return false;
   const int i = spec.i, j = spec.j, edge_i = loaded_edge(spec.sigma_i), edge_j = loaded_edge(spec.sigma_j);
-  const Row<double> za = force_pair(a.at[i], edge_i, a.at[j], edge_j), zb = force_pair(b.at[i], edge_i, b.at[j], edge_j);
+  const Row<double> za = force_pair(a.at[i], edge_i, a.at[j], edge_j),
+                    zb = force_pair(b.at[i], edge_i, b.at[j], edge_j);
   const double sign = (za.one > 0) == (spec.sense > 0) ? 1 : -1;  // of D, if the direction is to be wrong at gravity
   if (!wrong_way(za, sign) || !wrong_way(zb, sign)) return false;
   const Row<double> ca = inertia_times_normal_cross(a, i, j), cb = inertia_times_normal_cross(b, i, j);
@@ -118,7 +119,9 @@ bool LineInterval::excludes_by_rows(int k) {
   bool excluded = excludes_by_direction(line_.posture.modes()[k]);
   if (!excluded) {
     const StationRows &a = a_.rows(line_, k), &b = b_.rows(line_, k);
-    const auto excluded_for = [&](double sign) { return excludes_by_one_row(a, b, k, sign) || excludes_by_two_rows(a, b, k, sign); };
+    const auto excluded_for = [&](double sign) {
+      return excludes_by_one_row(a, b, k, sign) || excludes_by_two_rows(a, b, k, sign);
+    };
     const double sign = a.denominator < 0 ? -1 : 1;
     excluded = excluded_for(sign) && (denominator_keeps_sign(a, b, k, sign) || excluded_for(-sign));
   }

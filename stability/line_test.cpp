@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "stability/point_test.hpp"
 #include "stability/decisions.hpp"
 #include "stability/line_screen.hpp"
+#include "stability/point_test.hpp"
 
 namespace surefoot::stability {
 namespace {
@@ -61,8 +61,7 @@ std::optional<double> probe_beyond(double lambda, Test&& test) {
 LineQuery::LineQuery(const Posture& posture, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                      const DisturbanceBox& box)
     : posture_(posture), from_(from), to_(to), box_(box) {
-  for (int i = 0; i < posture.contacts(); ++i)
-    radius_ = std::max(radius_, (posture.position(i) - from).lpNorm<1>());
+  for (int i = 0; i < posture.contacts(); ++i) radius_ = std::max(radius_, (posture.position(i) - from).lpNorm<1>());
   radius_ += (to - from).lpNorm<1>();
 }
 
@@ -78,7 +77,8 @@ class Scanner {
     const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << line_.posture.modes().size()) - 1);
     Station start = station(0), end = station(1);
     result_.excluded = excluded_between(start, end, all, 0);
-    if (result_.feasible_mode < 0 && (line_.box.kappa == 0 || line_.box.nu == 0)) exclude_along_axis(all & ~result_.excluded);
+    if (result_.feasible_mode < 0 && (line_.box.kappa == 0 || line_.box.nu == 0))
+      exclude_along_axis(all & ~result_.excluded);
     return result_;
   }
 

@@ -25,9 +25,9 @@ struct LineMode {
 
 /// What a scan of the whole line with fast certificates found.
 struct LineScan {
-  std::uint32_t excluded = 0;            // bit k: mode k is infeasible on the whole line
-  std::array<double, Posture::most_modes> reached{};      // for the others: infeasible up to this lambda at least
-  int feasible_mode = -1;                // feasible at `feasible_at`, if not -1
+  std::uint32_t excluded = 0;                         // bit k: mode k is infeasible on the whole line
+  std::array<double, Posture::most_modes> reached{};  // for the others: infeasible up to this lambda at least
+  int feasible_mode = -1;                             // feasible at `feasible_at`, if not -1
   double feasible_at = 0;
 };
 

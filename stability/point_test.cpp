@@ -55,10 +55,8 @@ const ModeSpec* PointQuery::any_feasible() {
   make_frame();
   Screen screen(frame_, box_, guard_);
   for (const ModeSpec& spec : posture_.modes())
-    if (screen.excludes(spec))
-      ++decisions.modes_by_screen;
-    else if (feasible(spec))
-      return &spec;
+    if (screen.excludes(spec)) ++decisions.modes_by_screen;
+    else if (feasible(spec)) return &spec;
   return nullptr;
 }
 

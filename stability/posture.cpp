@@ -101,9 +101,8 @@ Frame<Dual> Posture::dual_frame(const Eigen::Vector2d& com) const {
 }
 
 Frame<Dyadic> Posture::exact_frame(const Eigen::Vector2d& com) const {
-  return make_frame<Dyadic>(count_, given_normal_, friction_, squared(rho_), [&](int i) {
-    return exactly(position_[i]) - exactly(com);
-  });
+  return make_frame<Dyadic>(count_, given_normal_, friction_, squared(rho_),
+                            [&](int i) { return exactly(position_[i]) - exactly(com); });
 }
 
 Frame<double> Posture::frame(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double lambda) const {

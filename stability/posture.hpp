@@ -40,7 +40,7 @@ class Posture {
   std::span<const ModeSpec> modes() const { return {modes_.data(), static_cast<std::size_t>(mode_count_)}; }
   /// Error bound of facet normals: z.q of facet_error, z.p and z.one of facet_error * spread() [m].
   double facet_error() const { return facet_error_; }
-  double spread() const { return spread_; }  ///< greatest |d_x| + |d_y| of contacts from contact 1 [m]
+  double spread() const { return spread_; }          ///< greatest |d_x| + |d_y| of contacts from contact 1 [m]
   double edge_bound() const { return edge_bound_; }  ///< a = 1 + max mu
   double rho() const { return rho_; }
   double rho2() const { return rho2_; }
@@ -87,9 +87,10 @@ class Posture {
   std::array<Vec2<double>, 3> normal_;        // scaled by a power of two to components of at most 1
   std::array<Vec2<double>, 3> given_normal_;  // as given: what exact decisions use
   std::array<double, 3> friction_;
-  std::array<Row<double>, 6> rays_;     // about contact 1: (C, d x C)
+  std::array<Row<double>, 6> rays_;  // about contact 1: (C, d x C)
   std::array<Facet, 15> facets_;
-  std::array<ModeSpec, most_modes> modes_;  // the first mode_count_ of them; likewise facets_: the rest is left uninitialised
+  std::array<ModeSpec, most_modes>
+      modes_;  // the first mode_count_ of them; likewise facets_: the rest is left uninitialised
   std::array<std::array<signed char, 3>, 3> turn_sign_{};
   signed char triple_sign_ = 0;  // of N_3 . (N_1 x N_2)
 };

@@ -96,7 +96,7 @@ void Posture::find_facets_of() {
       rays_[2 * i + e] = ray_about<double>(offset<double>(0, i), normal_[i], friction_[i], e);
   // z: 9 u of 2 a^2 (spread); the product with the third ray: at most 3 terms, 8 u more, of 6 a^3 spread.
   const double bound = guarded ? 4 * facet_error_ * edge_bound_ * spread_ + underflow_slack : 0;
-  unsigned positive = 0, negative = 0;  // pairs that have a ray on that side
+  unsigned positive = 0, negative = 0;          // pairs that have a ray on that side
   std::array<unsigned char, 6 * 6> coplanar{};  // of rays a < b: which third rays lie in their plane
   bool any_coplanar = false;
   const auto coplanar_with = [&](int a, int b) -> unsigned char& { return coplanar[6 * a + b]; };

@@ -91,7 +91,8 @@ void Posture::add_roll(int i) {
 int Posture::normal_cross_sign(int i, int j) const {
   if (surely_parallel(given_normal_[i], given_normal_[j])) return 0;
   const double bound = 4 * unit_roundoff + underflow_slack;  // components of at most 1: 2 u of 2
-  return certain_sign(cross(normal_[i], normal_[j]), bound, [&] { return cross(normal<Dyadic>(i), normal<Dyadic>(j)); });
+  return certain_sign(cross(normal_[i], normal_[j]), bound,
+                      [&] { return cross(normal<Dyadic>(i), normal<Dyadic>(j)); });
 }
 
 /// Sliding at i leaves two freedoms: the speed v along t_i and a rotation alpha about x_i, in which contact l opens at
@@ -130,7 +131,8 @@ void Posture::list_slides(int i) {
 
 /// The sign of N_3 . (N_1 x N_2).
 void Posture::find_triple_sign() {
-  if (surely_parallel(given_normal_[0], given_normal_[1]) && surely_parallel(given_normal_[0], given_normal_[2])) return;
+  if (surely_parallel(given_normal_[0], given_normal_[1]) && surely_parallel(given_normal_[0], given_normal_[2]))
+    return;
   const double value = opening_of_slide(offset<double>(0, 1), offset<double>(0, 2), normal_[0], normal_[1], normal_[2]);
   // Two products of cross products (3 u of the spread from contact 1 and 2 u of 2): 8 u of 4 spread.
   const double bound = 128 * unit_roundoff * spread_ + underflow_slack;

@@ -18,8 +18,8 @@ constexpr double rounding = 1e-14;  // of sums of products of coordinates, relat
 
 /// Areas by a subdivision: what its rectangles prove.
 struct Proof {
-  double robust = 0, robust_error = 0;  ///< [m^2]
-  double error = 0;                     ///< [m^2] of any sum of areas
+  double robust = 0, robust_error = 0;   ///< [m^2]
+  double error = 0;                      ///< [m^2] of any sum of areas
   std::map<std::uint32_t, double> area;  ///< [m^2] by the set of modes; only if all modes were looked at
   int rectangles = 0;
 };
@@ -27,8 +27,11 @@ struct Proof {
 Proof prove(const RegionSetup& setup, double tolerance, bool robust_only, int most_rectangles) {
   Subdivision subdivision(*setup.modes, setup.local, robust_only);
   subdivision.run(tolerance * setup.area, most_rectangles);
-  Proof proof{subdivision.robust(), subdivision.robust_error() + rounding * setup.area,
-              subdivision.error() + rounding * setup.area, {}, subdivision.rectangles()};
+  Proof proof{subdivision.robust(),
+              subdivision.robust_error() + rounding * setup.area,
+              subdivision.error() + rounding * setup.area,
+              {},
+              subdivision.rectangles()};
   for (const Piece& piece : subdivision.pieces()) proof.area[piece.modes] += piece.area;
   return proof;
 }
@@ -98,7 +101,8 @@ class Finish {
 /// bound; none where that does not decide.
 class ModesAt {
  public:
-  ModesAt(std::span<const Contact> contacts, double rho, const RegionSetup& setup, const WrenchBox& box, const Finish& finish)
+  ModesAt(std::span<const Contact> contacts, double rho, const RegionSetup& setup, const WrenchBox& box,
+          const Finish& finish)
       : setup_(setup), box_(box), finish_(finish) {
     if (box.centred()) oracle_.emplace(contacts, rho, DisturbanceBox{box.kappa, box.nu});
   }
@@ -134,7 +138,8 @@ double disputed_area(Region& region, const ModesAt& modes_at, double area) {
   double disputed = 0;
   for (RegionCell& cell : region.cells) {
     const auto expected = modes_at(cell.inside);
-    cell.confirmed = expected && std::is_permutation(expected->begin(), expected->end(), cell.modes.begin(), cell.modes.end());
+    cell.confirmed =
+        expected && std::is_permutation(expected->begin(), expected->end(), cell.modes.begin(), cell.modes.end());
     if (!cell.confirmed) disputed += cell.area;
   }
   std::erase_if(region.cells, [&](const RegionCell& cell) { return !cell.confirmed && cell.area < small * area; });
@@ -155,7 +160,8 @@ double difference(const Proof& proof, const SweepCells& found) {
 /// The area of R(W) from the cells, if the proof admits it, else that of the proof.
 void settle(Region& region, double from_cells, const Proof& proof) {
   region.robust_area = std::abs(from_cells - proof.robust) <= proof.robust_error ? from_cells : proof.robust;
-  region.area_error = std::min(proof.robust_error + std::abs(region.robust_area - proof.robust), region.equilibrium_area);
+  region.area_error =
+      std::min(proof.robust_error + std::abs(region.robust_area - proof.robust), region.equilibrium_area);
   region.rectangles += proof.rectangles;
 }
 
@@ -196,7 +202,8 @@ Region region(std::span<const Contact> contacts, double radius_of_gyration, cons
   const double disputed = disputed_area(result, {contacts, radius_of_gyration, setup, box, finish}, setup.area);
 
   const Proof all = prove(setup, options.area_tolerance, false, most_rectangles_for_cells);
-  result.cells_error = std::min(difference(all, found) + all.error + disputed, 2 * setup.area);  // all in the wrong cells
+  result.cells_error =
+      std::min(difference(all, found) + all.error + disputed, 2 * setup.area);  // all in the wrong cells
   settle(result, finish.robust(), all);
   if (result.area_error > options.area_tolerance * setup.area)
     settle(result, finish.robust(), prove(setup, options.area_tolerance, true, most_rectangles));

@@ -12,14 +12,15 @@
 //     gives cells with their rings, and areas to about ten digits, but can miss what lies between two of its lines.
 // Why not something else: boundaries are quadratic up to sextic and touch or coincide on flat and symmetric ground,
 // where arrangement packages need exact algebraic numbers and fail or take seconds; the paper's list of silhouette
-// curves is incomplete [theory 8.7]; a quadtree without curves is as sound but its error falls only as one over its cost
-// (bench/error_time/region.cpp shows all of them).
+// curves is incomplete [theory 8.7]; a quadtree without curves is as sound but its error falls only as one over its
+// cost (bench/error_time/region.cpp shows all of them).
 //
 // Guarantee. `area_error` bounds the error of equilibrium_area and robust_area, `cells_error` the sum over all sets of
 // modes of the error of the area in which just these are feasible: bounds in doubles with their rounding error, not
 // estimates. Limits: rows that are opposite to within 1e-12 count as opposite. Each cell's modes are confirmed at a
-// point inside by RobustOracle, exactly; for a box that is not about gravity there is no exact fallback, rows in doubles
-// with their error bound confirm or leave the cell unconfirmed. Unconfirmed cells count in cells_error and are noted.
+// point inside by RobustOracle, exactly; for a box that is not about gravity there is no exact fallback, rows in
+// doubles with their error bound confirm or leave the cell unconfirmed. Unconfirmed cells count in cells_error and are
+// noted.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -35,18 +36,18 @@ namespace surefoot::stability {
 using RegionPolygon = std::vector<Eigen::Vector2d>;
 
 struct RegionOptions {
-  double area_tolerance = 1e-6;  ///< error of areas that is aimed at, relative to the area of R_SS(W)
+  double area_tolerance = 1e-6;               ///< error of areas that is aimed at, relative to the area of R_SS(W)
   std::optional<Eigen::AlignedBox2d> window;  ///< [m] clip to this; otherwise only what is unbounded is clipped
-  bool curves = true;                 ///< rings of cells and boundary polylines; areas alone are cheaper
-  double curve_tolerance = 1e-4;      ///< of polylines, relative to the diagonal of R_SS(W)
+  bool curves = true;                         ///< rings of cells and boundary polylines; areas alone are cheaper
+  double curve_tolerance = 1e-4;              ///< of polylines, relative to the diagonal of R_SS(W)
 };
 
 struct RegionCell {
-  std::vector<ContactMode> modes;       ///< feasible for some wrench of W; empty: part of R(W)
-  double area = 0;                      ///< [m^2]
-  bool confirmed = true;                ///< its modes are those at `inside`
+  std::vector<ContactMode> modes;                    ///< feasible for some wrench of W; empty: part of R(W)
+  double area = 0;                                   ///< [m^2]
+  bool confirmed = true;                             ///< its modes are those at `inside`
   Eigen::Vector2d inside = Eigen::Vector2d::Zero();  ///< a point well inside
-  std::vector<RegionPolygon> rings;     ///< the outer one first, then holes; empty without `curves`
+  std::vector<RegionPolygon> rings;                  ///< the outer one first, then holes; empty without `curves`
 };
 
 struct RegionBoundary {
@@ -61,17 +62,17 @@ struct ModeShare {
 };
 
 struct Region {
-  RegionPolygon equilibrium;  ///< R_SS(W), clipped; counter-clockwise
+  RegionPolygon equilibrium;                     ///< R_SS(W), clipped; counter-clockwise
   double equilibrium_area = 0, robust_area = 0;  ///< [m^2]
   double area_error = 0;                         ///< [m^2] bounds the error of both
   double cells_error = 0;                        ///< [m^2] bounds that of the cells, summed over sets of modes
   std::vector<RegionCell> cells;                 ///< connected; greatest first, R(W) before the rest
   std::vector<ModeShare> modes;                  ///< those that occur, greatest first
   std::vector<RegionBoundary> boundaries;
-  std::optional<Eigen::AlignedBox2d> window;     ///< where the region had to be, or was asked to be, clipped
-  double curve_tolerance = 0;                    ///< [m]
-  std::string note;                              ///< what a reader must know; usually empty
-  int lines = 0, rectangles = 0;                 ///< of the sweep and the subdivision: measures of the work
+  std::optional<Eigen::AlignedBox2d> window;  ///< where the region had to be, or was asked to be, clipped
+  double curve_tolerance = 0;                 ///< [m]
+  std::string note;                           ///< what a reader must know; usually empty
+  int lines = 0, rectangles = 0;              ///< of the sweep and the subdivision: measures of the work
 
   bool empty() const { return equilibrium.empty(); }
 };

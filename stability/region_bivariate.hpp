@@ -101,7 +101,7 @@ inline double local_error(const Poly2& f, const Rectangle& r) {
 /// A polynomial of degree 2, 4 or 6 behind one type.
 struct CurvePolynomial {
   int degree = 0;
-  Bivariate<6> f;  // coefficients beyond `degree` are not set
+  Bivariate<6> f;    // coefficients beyond `degree` are not set
   double error = 0;  // of its values on the rectangle
   template <int D>
   static CurvePolynomial of(const Bivariate<D>& from, double error) {

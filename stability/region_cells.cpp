@@ -32,10 +32,8 @@ class Cells {
       if (sliver(pieces_[k])) found.dropped += std::abs(pieces_[k].area);
     for (const auto& [first, list] : members) {
       SweepCell cell = make(list);
-      if (cell.area < least_cell * sweep_.area())
-        found.dropped += std::abs(cell.area);
-      else
-        found.cells.push_back(std::move(cell));
+      if (cell.area < least_cell * sweep_.area()) found.dropped += std::abs(cell.area);
+      else found.cells.push_back(std::move(cell));
     }
     if (tolerance_ > 0) found.curves = curves();
     return found;
@@ -74,10 +72,8 @@ class Cells {
       for (std::size_t k = 0, l = 0; k < left.pieces() && l < right.pieces();) {
         const double lo = std::max(left.at_b[k], right.at_a[l]), hi = std::min(left.at_b[k + 1], right.at_a[l + 1]);
         if (hi - lo > least && left.modes[k] == right.modes[l]) parent_[root(first_[i] + k)] = root(first_[i + 1] + l);
-        if (left.at_b[k + 1] < right.at_a[l + 1])
-          ++k;
-        else
-          ++l;
+        if (left.at_b[k + 1] < right.at_a[l + 1]) ++k;
+        else ++l;
       }
     }
   }
@@ -115,7 +111,8 @@ class Cells {
 
   std::vector<Points> rings(const std::vector<std::size_t>& list) {
     std::vector<Side> sides;
-    std::map<std::size_t, std::vector<std::pair<double, std::size_t>>> borders;  // line left of slab i: t and end (2 side + at b)
+    std::map<std::size_t, std::vector<std::pair<double, std::size_t>>>
+        borders;  // line left of slab i: t and end (2 side + at b)
     for (const std::size_t k : list) {
       const Piece& piece = pieces_[k];
       for (const std::size_t curve : {piece.index, piece.index + 1}) {
@@ -218,7 +215,8 @@ class Cells {
       open = std::move(still);
     }
     for (Open& ended : open) finished.push_back({ended.crossing.curve, std::move(ended.points)});
-    std::sort(finished.begin(), finished.end(), [](const SweepCurve& x, const SweepCurve& y) { return x.curve < y.curve; });
+    std::sort(finished.begin(), finished.end(),
+              [](const SweepCurve& x, const SweepCurve& y) { return x.curve < y.curve; });
     return finished;
   }
 

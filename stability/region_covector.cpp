@@ -25,7 +25,8 @@ class Excluder {
   Excluder(const RegionModes& modes, int index, const Rectangle& rectangle)
       : modes_(modes), rectangle_(rectangle), certificate_(modes.certificate(index)), spec_(modes.modes()[index].spec),
         frame_(modes.posture().frame(modes.position(rectangle.s(), rectangle.t()))) {
-    for (int k = 0; k < frame_.contacts; ++k) radius_ = std::max(radius_, offset(k).x.greatest() + offset(k).y.greatest());
+    for (int k = 0; k < frame_.contacts; ++k)
+      radius_ = std::max(radius_, offset(k).x.greatest() + offset(k).y.greatest());
   }
 
   bool excludes() {
@@ -51,7 +52,8 @@ class Excluder {
  private:
   /// (X, M) at a point of the rectangle.
   std::optional<Vector2d> proposal(double sigma, double tau) const {
-    const Vector2d com = modes_.position(rectangle_.s() + sigma * rectangle_.ds(), rectangle_.t() + tau * rectangle_.dt());
+    const Vector2d com =
+        modes_.position(rectangle_.s() + sigma * rectangle_.ds(), rectangle_.t() + tau * rectangle_.dt());
     const Frame<double> frame = modes_.posture().frame(com);
     const Covector covector = certificate_.propose(frame);
     if (!covector.found) return std::nullopt;
@@ -88,7 +90,8 @@ class Excluder {
     const Vec2<Affine> r = offset(spec_.i);
     for (int k = 0; k < cone.count; ++k) {
       const Row<double>& twist = cone.extreme[k];
-      const Conic read = x_ * (r.y * twist.q + Affine{twist.p, 0, 0}) + conic(r.x * -twist.q + m_ * twist.q + Affine{twist.one, 0, 0});
+      const Conic read =
+          x_ * (r.y * twist.q + Affine{twist.p, 0, 0}) + conic(r.x * -twist.q + m_ * twist.q + Affine{twist.one, 0, 0});
       const double v = std::abs(twist.p) + std::abs(twist.one), turn = std::abs(twist.q);
       if (!(lower(read) >= rounding * (v * (1 + x) + turn * (m + radius_ * (1 + x))))) return false;
     }

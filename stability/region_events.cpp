@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 namespace {
 // insets: where an event is known but not yet over (curves that part slowly, two events at once)
 constexpr double blurred = 64;
-constexpr int deepest = 60;          // splits; each halves the slab at least every other time
+constexpr int deepest = 60;  // splits; each halves the slab at least every other time
 }  // namespace
 
 /// Where two curves meet, or one turns back (one == other), by Newton's method from (s, t); NaN if it does not settle.

@@ -16,8 +16,8 @@ namespace surefoot::stability {
 struct Graph {
   static constexpr int degree = 8;
   std::array<double, degree + 1> p{};
-  double error = 0;   ///< bounds |tau - P(sigma)| for sigma in [-1, 1], where one of both lies in [-1, 1]
-  int rising = 1;     ///< sign of df/dtau
+  double error = 0;  ///< bounds |tau - P(sigma)| for sigma in [-1, 1], where one of both lies in [-1, 1]
+  int rising = 1;    ///< sign of df/dtau
   double at(double sigma) const {
     double value = 0;
     for (int k = degree; k >= 0; --k) value = value * sigma + p[k];

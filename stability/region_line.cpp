@@ -77,12 +77,11 @@ class March {
  private:
   /// The mode starts or ends to be feasible at t. What came and went within one step is forgotten.
   void cross(double t, CurveId curve) {
-    if (curve.kind != CurveId::denominator && curve.kind != CurveId::edge) curve.mode = static_cast<signed char>(index_);
+    if (curve.kind != CurveId::denominator && curve.kind != CurveId::edge)
+      curve.mode = static_cast<signed char>(index_);
     feasible_ = !feasible_;
-    if (!found_.crossings.empty() && t - found_.crossings.back().t < 4 * step_)
-      found_.crossings.pop_back();
-    else
-      found_.crossings.push_back({t, curve, feasible_});
+    if (!found_.crossings.empty() && t - found_.crossings.back().t < 4 * step_) found_.crossings.pop_back();
+    else found_.crossings.push_back({t, curve, feasible_});
   }
 
   /// Where one wrench or one set of multipliers does not last (two rows that are nearly opposite), one that moves on a
@@ -90,9 +89,9 @@ class March {
   bool leaps(double& t, double& leap, Margin& m) {
     const bool channel = m.basis.kind == CurveId::side && rows_.channel_between(t, leap, m);
     const Margin far = rows_.margin_at(t + leap);
-    const bool holds = (far.value > 0) == (m.value > 0) &&
-                       (channel || (m.value > 0 ? rows_.witnessed_between(t, leap, m, far)
-                                                : rows_.excluded_between(t, leap, m, far)));
+    const bool holds =
+        (far.value > 0) == (m.value > 0) &&
+        (channel || (m.value > 0 ? rows_.witnessed_between(t, leap, m, far) : rows_.excluded_between(t, leap, m, far)));
     if (holds) {
       t += leap;
       m = far;

@@ -33,7 +33,7 @@ struct LineSet {
   bool at_begin = false;            ///< feasible at the beginning
   std::vector<Crossing> crossings;  ///< ascending, alternately leaving and entering
   bool uncertain = false;
-  int steps = 0;                    ///< of the marches: a measure of the work
+  int steps = 0;  ///< of the marches: a measure of the work
 };
 
 /// The mode on the line at `s`, for t in [from, to]. `index` names the mode in CurveId.
@@ -41,6 +41,7 @@ void solve_line(const RegionMode& mode, int index, double s, double from, double
 
 /// The root of a curve on the line at `s` near t by Newton's method; NaN if it does not settle within `reach` of t.
 /// `slope` returns the curve's derivative along the line.
-double polish(const RegionModes& modes, const CurveId& curve, double s, double t, double reach, double* slope = nullptr);
+double polish(const RegionModes& modes, const CurveId& curve, double s, double t, double reach,
+              double* slope = nullptr);
 
 }  // namespace surefoot::stability

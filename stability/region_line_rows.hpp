@@ -85,8 +85,7 @@ struct LineRows {
       for (const double w : {-1.0, 1.0}) {
         Cubic f;
         for (int k = 0; k < count; ++k)
-          if (y0[k] != 0 || y1[k] != 0)
-            f.add((row[k].one + row[k].u * u + row[k].w * w) * -1, t, length, y0[k], y1[k]);
+          if (y0[k] != 0 || y1[k] != 0) f.add((row[k].one + row[k].u * u + row[k].w * w) * -1, t, length, y0[k], y1[k]);
         if (!f.positive()) return false;
       }
     return true;

@@ -16,7 +16,11 @@ Margin single(const Form<double>* g, int k) {
   Margin m;
   m.u = sign_of(g[k].u), m.w = sign_of(g[k].w);
   m.value = value_at(g[k], m.u, m.w);
-  m.basis = {CurveId::corner, -1, static_cast<signed char>(k), -1, -1,
+  m.basis = {CurveId::corner,
+             -1,
+             static_cast<signed char>(k),
+             -1,
+             -1,
              static_cast<signed char>((m.u > 0 ? 1 : 0) + (m.w > 0 ? 2 : 0))};
   m.count = 1;
   m.y = {1, 0, 0};
@@ -67,8 +71,12 @@ bool triple(const Form<double>* g, int i, int j, int k, Margin& m) {
   m.u = (c1 * b2 - c2 * b1) / det, m.w = (a1 * c2 - a2 * c1) / det;
   if (!(std::abs(m.u) <= 1 + equal_rows && std::abs(m.w) <= 1 + equal_rows)) return false;
   m.value = y[0] * f.one + y[1] * e.one + y[2] * h.one;
-  m.basis = {CurveId::inside, -1, static_cast<signed char>(row[0]), static_cast<signed char>(row[1]),
-             static_cast<signed char>(row[2]), 0};
+  m.basis = {CurveId::inside,
+             -1,
+             static_cast<signed char>(row[0]),
+             static_cast<signed char>(row[1]),
+             static_cast<signed char>(row[2]),
+             0};
   m.count = 3;
   m.y = {y[0], y[1], y[2]};
   return true;

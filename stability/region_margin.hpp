@@ -13,9 +13,9 @@ namespace surefoot::stability {
 struct Margin {
   double value = 0;
   CurveId basis;
-  double u = 0, w = 0;           ///< where the maximum is attained
-  int count = 0;                 ///< rows in the basis: basis.a, b, c
-  std::array<double, 3> y{};     ///< multipliers of the rows as they are (not scaled)
+  double u = 0, w = 0;        ///< where the maximum is attained
+  int count = 0;              ///< rows in the basis: basis.a, b, c
+  std::array<double, 3> y{};  ///< multipliers of the rows as they are (not scaled)
 };
 
 /// The margin of `count` rows given at one COM.

@@ -109,7 +109,8 @@ ModePart narrowed(const RegionModes& modes, const ModePart& given, const Rectang
 /// The pieces of a leaf in intervals of sigma.
 class Cut {
  public:
-  Cut(const Leaf& leaf, std::vector<Piece>& pieces) : leaf_(leaf), pieces_(pieces), scale_(leaf.box.ds() * leaf.box.dt()) {}
+  Cut(const Leaf& leaf, std::vector<Piece>& pieces)
+      : leaf_(leaf), pieces_(pieces), scale_(leaf.box.ds() * leaf.box.dt()) {}
 
   void interval(double from, double to) {
     const double middle = 0.5 * (from + to);
@@ -255,10 +256,8 @@ Areas cut(const Leaf& leaf, std::vector<Piece>& pieces) {
   for (const Graph& graph : leaf.graphs) cut.loosen(graph.error);
   const std::vector<double> at = breaks(leaf);
   for (std::size_t k = 0; k + 1 < at.size(); ++k)
-    if (at[k + 1] - at[k] < thinnest_piece)
-      cut.thin(at[k + 1] - at[k]);
-    else
-      cut.interval(at[k], at[k + 1]);
+    if (at[k + 1] - at[k] < thinnest_piece) cut.thin(at[k + 1] - at[k]);
+    else cut.interval(at[k], at[k + 1]);
   return cut.areas();
 }
 

@@ -1,6 +1,6 @@
-// A rectangle cut along its curves: between the places where two curves cross or one leaves the rectangle, their order is
-// fixed and the pieces between them are integrals of polynomials. In each piece the signs of the curves tell which modes
-// are feasible.
+// A rectangle cut along its curves: between the places where two curves cross or one leaves the rectangle, their order
+// is fixed and the pieces between them are integrals of polynomials. In each piece the signs of the curves tell which
+// modes are feasible.
 #pragma once
 
 #include <span>

@@ -89,7 +89,8 @@ AlignedBox2d around_all(const std::vector<LabelledHalfPlane>& planes, const Alig
       const double det = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
       if (std::abs(det) <= 1e-14 * a.normal.norm() * b.normal.norm()) continue;
       box.extend(Vector2d(b.offset * a.normal.y() - a.offset * b.normal.y(),
-                          a.offset * b.normal.x() - b.offset * a.normal.x()) / det);
+                          a.offset * b.normal.x() - b.offset * a.normal.x()) /
+                 det);
     }
   const Vector2d room = 0.1 * box.diagonal();
   return {box.min() - room, box.max() + room};
@@ -112,7 +113,8 @@ Vector2d line_direction(std::span<const Contact> contacts, const std::vector<Lab
   double widest = -1;
   constexpr int tried = 24;
   for (int k = 0; k < tried; ++k) {
-    const double angle = (k + 0.37) * std::numbers::pi / 3 / tried - std::numbers::pi / 6;  // within 30 degrees of level
+    const double angle =
+        (k + 0.37) * std::numbers::pi / 3 / tried - std::numbers::pi / 6;  // within 30 degrees of level
     const Vector2d direction(std::cos(angle), std::sin(angle));
     double closest = 1;
     for (const Vector2d& other : avoided)
@@ -126,12 +128,9 @@ LabelledPolygon equilibrium_polygon(const std::vector<LabelledHalfPlane>& planes
                                     double rho, const RegionOptions& options, std::optional<AlignedBox2d>& used) {
   const AlignedBox2d usual = default_window(contacts, rho);
   AlignedBox2d start = usual;
-  if (options.window)
-    used = start = *options.window;
-  else if (!bounded(planes))
-    used = usual;
-  else
-    start = around_all(planes, usual);
+  if (options.window) used = start = *options.window;
+  else if (!bounded(planes)) used = usual;
+  else start = around_all(planes, usual);
   LabelledPolygon polygon = window_polygon(start);
   for (const LabelledHalfPlane& half : planes) polygon = clipped(polygon, half);
   merge_corners(polygon);
@@ -145,8 +144,9 @@ std::vector<LabelledHalfPlane> equilibrium_half_planes(const Posture& posture, c
   const auto ray = [](int k) { return std::to_string(k / 2 + 1) + (k % 2 == edge_u ? "u" : "w"); };
   for (const Facet& facet : posture.facets()) {
     const Row<double>& z = facet.z;
-    const std::string limit = facet.a / 2 == facet.b / 2 ? "tips over contact " + std::to_string(facet.a / 2 + 1)
-                                                         : "force on cone edges " + ray(facet.a) + " and " + ray(facet.b);
+    const std::string limit = facet.a / 2 == facet.b / 2
+                                  ? "tips over contact " + std::to_string(facet.a / 2 + 1)
+                                  : "force on cone edges " + ray(facet.a) + " and " + ray(facet.b);
     for (const double end : {-1.0, 1.0}) {
       // z . g = z.p p + z.one + z.q (x - p y + q), least over q
       const double p = box.centre.p + end * box.kappa;

@@ -16,8 +16,7 @@ Eigen::AlignedBox2d bounds_of(const RegionPolygon& polygon);
 
 /// `used`: the window, if the polygon had to be, or was asked to be, clipped.
 LabelledPolygon equilibrium_polygon(const std::vector<LabelledHalfPlane>& planes, std::span<const Contact> contacts,
-                                    double rho, const RegionOptions& options,
-                                    std::optional<Eigen::AlignedBox2d>& used);
+                                    double rho, const RegionOptions& options, std::optional<Eigen::AlignedBox2d>& used);
 
 /// A direction for the lines of the sweep that is far from those of straight boundaries: normals (all contacts break),
 /// tangents, and the sides of R_SS(W); nearly level, since regions are mostly tall.

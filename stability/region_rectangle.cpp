@@ -50,10 +50,8 @@ ModeThere with_both_signs(const RegionModes& modes, int index, const Rectangle& 
 void ModeThere::summarise() {
   kind = part[0].kind;
   if (!denominator) return;
-  if (kind == ModePart::unknown || part[1].kind == ModePart::unknown)
-    kind = ModePart::unknown;
-  else if (kind != part[1].kind)
-    kind = ModePart::by_curves;
+  if (kind == ModePart::unknown || part[1].kind == ModePart::unknown) kind = ModePart::unknown;
+  else if (kind != part[1].kind) kind = ModePart::by_curves;
 }
 
 ModeThere mode_there(const RegionModes& modes, int index, const Rectangle& rectangle, std::span<const Conic> edges,
@@ -77,7 +75,9 @@ ModeThere mode_there(const RegionModes& modes, int index, const Rectangle& recta
 }
 
 CurvePolynomial curve_there(const RegionModes& modes, const CurveId& id, const Rectangle& rectangle) {
-  const auto conic = [&](const Poly2& f) { return CurvePolynomial::of(local(f, rectangle), local_error(f, rectangle)); };
+  const auto conic = [&](const Poly2& f) {
+    return CurvePolynomial::of(local(f, rectangle), local_error(f, rectangle));
+  };
   if (id.kind == CurveId::edge) return conic(modes.edges()[id.a]);
   const RegionMode& mode = modes.modes()[id.mode];
   if (id.kind == CurveId::denominator) return conic(mode.denominator);
@@ -95,7 +95,8 @@ CurvePolynomial curve_there(const RegionModes& modes, const CurveId& id, const R
   if (id.kind == CurveId::side) {
     const double end = id.place & 1 ? 1 : -1;
     const bool free_w = id.place < 2;
-    const Conic ei = at_wrench(i, free_w ? end : 0, free_w ? 0 : end), ej = at_wrench(j, free_w ? end : 0, free_w ? 0 : end);
+    const Conic ei = at_wrench(i, free_w ? end : 0, free_w ? 0 : end),
+                ej = at_wrench(j, free_w ? end : 0, free_w ? 0 : end);
     const Conic &gi = free_w ? i.form.w : i.form.u, &gj = free_w ? j.form.w : j.form.u;
     return CurvePolynomial::of(ei * gj - ej * gi, products);
   }

@@ -2,7 +2,8 @@
 //   nowhere       multipliers y >= 0 with sum y_k row_k < 0 on the rectangle and on W, or a covector of
 //                 dual_certificate.hpp (where the denominator D changes sign)
 //   everywhere    one wrench of W at which all rows are positive on the rectangle
-//   by_curves     feasible exactly where sign * f > 0 for each of some curves f of bases (region_rows.hpp). By duality a
+//   by_curves     feasible exactly where sign * f > 0 for each of some curves f of bases (region_rows.hpp). By duality
+//   a
 //                 mode is infeasible iff the multipliers of one basis exclude it, so each curve must be
 //                   necessary   where it fails, the multipliers of its basis, which are >= 0 on the rectangle, exclude
 //                     corner      row k: its greatest value on W is at that corner everywhere
@@ -10,7 +11,8 @@
 //                                 constant along the side, and it is no greater on the opposite one
 //                     inside      y_i : y_j : y_k > 0 that make sum y row constant on W
 //                 and all together
-//                   sufficient  on a side of W some wrench is left; or on one of two sides that meet; or where two of the
+//                   sufficient  on a side of W some wrench is left; or on one of two sides that meet; or where two of
+//                   the
 //                               rows inside vanish, which lies in W, all others are positive
 //                 Where the denominator D changes sign, both its signs are decided apart.
 // Only the part of the rectangle in the polygon counts: where its edges e >= 0 cross the rectangle, f <= f + z e for
@@ -44,7 +46,7 @@ struct ModePart {
 
 struct ModeThere {
   ModePart::Kind kind = ModePart::unknown;
-  double strip = 0;  ///< part of the rectangle, along an edge, in which `kind` is not certain: rounding
+  double strip = 0;                 ///< part of the rectangle, along an edge, in which `kind` is not certain: rounding
   bool feasible_in_middle = false;  ///< by doubles; meaningful for `unknown`
   bool denominator = false;         ///< D changes sign: part[0] where D > 0, part[1] where D < 0
   std::array<ModePart, 2> part;     ///< for by_curves, and what is known in part for `unknown`; one without D

@@ -27,7 +27,8 @@ class PolySink {
     }
     mode_.row[mode_.count++].form = {row.p * box_.kappa, one, row.q * box_.nu};
     const Form<Poly2>& scaled = mode_.row[mode_.count - 1].form;
-    if (!(std::max({scaled.u.size(), scaled.one.size(), scaled.w.size()}) > 0)) mode_.impossible = true;  // 0 > 0 on all of W
+    if (!(std::max({scaled.u.size(), scaled.one.size(), scaled.w.size()}) > 0))
+      mode_.impossible = true;  // 0 > 0 on all of W
     return false;
   }
   bool add_length(const Row<Poly2>& row) { return add(row); }

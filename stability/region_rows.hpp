@@ -48,13 +48,13 @@ struct WrenchBox {
 
 /// What a row of a mode demands; vanishing on the curves that the row gives.
 enum class RowMeaning : unsigned char {
-  lifts,      ///< contact `i` lifts off
-  turns,      ///< the sense of the rotation about contact `i`
-  cone_u,     ///< the force at `i` stays on the near side of edge u of its cone
-  cone_w,     ///< likewise edge w
-  slides,     ///< contact `i` slides in the sense of the mode
-  pushes,     ///< the force at `i` is positive
-  moves,      ///< the sense of the motion of two slides
+  lifts,   ///< contact `i` lifts off
+  turns,   ///< the sense of the rotation about contact `i`
+  cone_u,  ///< the force at `i` stays on the near side of edge u of its cone
+  cone_w,  ///< likewise edge w
+  slides,  ///< contact `i` slides in the sense of the mode
+  pushes,  ///< the force at `i` is positive
+  moves,   ///< the sense of the motion of two slides
 };
 
 /// A row over the scaled box.

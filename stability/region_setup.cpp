@@ -22,7 +22,8 @@ double core_of(std::span<const Contact> contacts, double rho) {
 
 }  // namespace
 
-RegionSetup::RegionSetup(std::span<const Contact> contacts, double rho, const WrenchBox& box, const RegionOptions& options)
+RegionSetup::RegionSetup(std::span<const Contact> contacts, double rho, const WrenchBox& box,
+                         const RegionOptions& options)
     : posture(contacts, rho), core(core_of(contacts, rho)) {
   const std::vector<LabelledHalfPlane> planes = equilibrium_half_planes(posture, box);
   polygon = equilibrium_polygon(planes, contacts, rho, options, window);

@@ -1,4 +1,5 @@
-// What all ways to a region of one stance begin with: the posture, R_SS(W) as a polygon, the modes in coordinates (s, t).
+// What all ways to a region of one stance begin with: the posture, R_SS(W) as a polygon, the modes in coordinates (s,
+// t).
 #pragma once
 
 #include <memory>
@@ -13,11 +14,11 @@ struct RegionSetup {
   Posture posture;
   LabelledPolygon polygon;
   std::optional<Eigen::AlignedBox2d> window;
-  double area = 0;   ///< of the polygon [m^2]; 0 with `problem`
-  double core = 0;   ///< [m]: extent around the contacts within which all structure lies but for far ends
+  double area = 0;      ///< of the polygon [m^2]; 0 with `problem`
+  double core = 0;      ///< [m]: extent around the contacts within which all structure lies but for far ends
   std::string problem;  ///< why there is no region
-  std::unique_ptr<RegionModes> modes;     ///< with the edges of the polygon
-  std::vector<Eigen::Vector2d> local;     ///< the polygon in (s, t)
+  std::unique_ptr<RegionModes> modes;  ///< with the edges of the polygon
+  std::vector<Eigen::Vector2d> local;  ///< the polygon in (s, t)
 
   RegionSetup(std::span<const Contact> contacts, double rho, const WrenchBox& box, const RegionOptions& options);
 };

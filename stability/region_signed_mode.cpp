@@ -6,7 +6,7 @@
 namespace surefoot::stability {
 
 SignedMode::SignedMode(const RegionMode& mode, const Rectangle& rectangle, double sign, std::span<const Conic> edges,
-           const Conic* denominator)
+                       const Conic* denominator)
     : edges_(edges), count_(mode.count), sign_(sign) {
   if (denominator != nullptr) {
     denominator_ = *denominator * sign;
@@ -27,10 +27,8 @@ SignedMode::SignedMode(const RegionMode& mode, const Rectangle& rectangle, doubl
 void SignedMode::decide(const Margin& m, bool curves, ModePart& part, double& strip) const {
   const bool feasible = m.value > 0;
   double own = 0;
-  if (m.count == 0 || (feasible && witnessed(m.u, m.w, own)))
-    part.kind = ModePart::everywhere;
-  else if (!feasible && (excluded(m, {}, own) || excluded_by_basis(m.basis)))
-    part.kind = ModePart::nowhere;
+  if (m.count == 0 || (feasible && witnessed(m.u, m.w, own))) part.kind = ModePart::everywhere;
+  else if (!feasible && (excluded(m, {}, own) || excluded_by_basis(m.basis))) part.kind = ModePart::nowhere;
   else if (const Box box = feasible ? Box{} : remaining_box(); box.empty || (!feasible && excluded(m, box, own)))
     part.kind = ModePart::nowhere;
   if (part.kind == ModePart::unknown && curves && !(denominator_ && beside_denominator(part))) {
@@ -38,8 +36,7 @@ void SignedMode::decide(const Margin& m, bool curves, ModePart& part, double& st
     own = 0;
     if (!feasible && !(near.value > 0) && !(near.basis == m.basis) && excluded(near, {}, own))
       part.kind = ModePart::nowhere;
-    else
-      by_curves(near.basis, part);
+    else by_curves(near.basis, part);
   }
   if (part.kind == ModePart::nowhere || part.kind == ModePart::everywhere) strip += own;
 }
@@ -93,7 +90,8 @@ SignedMode::Box SignedMode::remaining_box() const {
     const LocalRow& row = row_[k];
     const auto cut = [&](const Conic& slot, const Conic& a, const Conic& b, std::array<double, 2>& range) {
       const double least = lower(slot), greatest = upper(slot), top = std::max(upper(a), upper(b)) + row.error;
-      const double weakest = top > 0 ? std::min(std::abs(least), std::abs(greatest)) : std::max(std::abs(least), std::abs(greatest));
+      const double weakest =
+          top > 0 ? std::min(std::abs(least), std::abs(greatest)) : std::max(std::abs(least), std::abs(greatest));
       const double end = -top / weakest;  // of what is excluded, in the sense in which the row grows
       if ((least > 0 || greatest < 0) && end > 1 + room) box.empty = true;
       if (top < 0 && top + std::max(std::abs(least), std::abs(greatest)) < 0) box.empty = true;
@@ -111,7 +109,8 @@ bool SignedMode::excluded(const Margin& m, const Box& box, double& strip) const 
   const signed char basis[3] = {m.basis.a, m.basis.b, m.basis.c};
   for (int k = 0; k < m.count; ++k) {
     const LocalRow& row = row_[basis[k]];
-    sum.form = {sum.form.u + row.form.u * m.y[k], sum.form.one + row.form.one * m.y[k], sum.form.w + row.form.w * m.y[k]};
+    sum.form = {sum.form.u + row.form.u * m.y[k], sum.form.one + row.form.one * m.y[k],
+                sum.form.w + row.form.w * m.y[k]};
     sum.error += row.error * m.y[k];
   }
   for (const double u : box.u)

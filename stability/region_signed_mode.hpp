@@ -56,7 +56,8 @@ class SignedMode {
 
   /// f > 0 on the rectangle; with a denominator, where that is positive: there f >= f - z D for z >= 0.
   bool positive(const Conic& f, double error) const;
-  /// f < 0 on the rectangle within the polygon, but for a strip along an edge; with a denominator, where that is positive.
+  /// f < 0 on the rectangle within the polygon, but for a strip along an edge; with a denominator, where that is
+  /// positive.
   bool negative(const Conic& f, double error, double& strip) const;
   static constexpr double widest_strip = 1e-6;
 
@@ -99,8 +100,8 @@ class SignedMode {
   };
   std::optional<SidePair> side_pair(const CurveId& id) const;
   /// On a side the rows that can vanish bound the free coordinate from below (slot g > 0) or from above: some point is
-  /// left iff every bound from below is less than every bound from above, 1 and -1 among them. `open` are those of these
-  /// conditions that are not shown to hold; together they are sufficient.
+  /// left iff every bound from below is less than every bound from above, 1 and -1 among them. `open` are those of
+  /// these conditions that are not shown to hold; together they are sufficient.
   struct SideConditions {
     static constexpr int most = 4;
     struct Open : CurveCondition {
@@ -112,7 +113,8 @@ class SignedMode {
     std::array<int, 6> rising, falling;
     int risings = 0, fallings = 0, opens = 0;
     std::array<Open, most> open;
-    SideConditions(const SignedMode& m, int at) : mode(m), side{CurveId::side, -1, 0, 0, -1, static_cast<signed char>(at)} {}
+    SideConditions(const SignedMode& m, int at)
+        : mode(m), side{CurveId::side, -1, 0, 0, -1, static_cast<signed char>(at)} {}
 
     bool collect();
     bool pair_holds(int i, int j);
@@ -132,8 +134,8 @@ class SignedMode {
   };
   /// If all conditions of the side are necessary. Otherwise kept in `conditions`, if they are known.
   bool by_side(int side, std::optional<SideConditions>& conditions, ModePart& part) const;
-  /// Two sides of W that meet in a corner: neither may hold only where rows i and j are both <= 0 at the corner, and then
-  /// their sum that is constant along one side is, too, if that is necessary.
+  /// Two sides of W that meet in a corner: neither may hold only where rows i and j are both <= 0 at the corner, and
+  /// then their sum that is constant along one side is, too, if that is necessary.
   bool by_two_sides(const SideConditions& one, const SideConditions& other, ModePart& part) const;
   /// Where the condition fails, the multipliers of its basis exclude all of `box`.
   bool necessary(const CurveId& id, const Box& box) const;

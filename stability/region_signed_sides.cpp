@@ -154,7 +154,8 @@ bool SignedMode::positive(const Bivariate<4>& f, double error) const {
   for (const double sigma : {-1.0, 0.0, 1.0})
     for (const double tau : {-1.0, 0.0, 1.0}) {
       const double d = value_at(*denominator_, sigma, tau), v = value_at(f, sigma, tau), w = d * d;
-      n00 += w, n01 += w * sigma, n02 += w * tau, n11 += w * sigma * sigma, n12 += w * sigma * tau, n22 += w * tau * tau;
+      n00 += w, n01 += w * sigma, n02 += w * tau, n11 += w * sigma * sigma, n12 += w * sigma * tau,
+          n22 += w * tau * tau;
       m0 += d * v, m1 += d * v * sigma, m2 += d * v * tau;
     }
   const double c00 = n11 * n22 - n12 * n12, c01 = n12 * n02 - n01 * n22, c02 = n01 * n12 - n11 * n02;
@@ -174,7 +175,8 @@ bool SignedMode::SideConditions::collect() {
   for (int k = 0; k < mode.count_; ++k) {
     row[k] = mode.on_side(k, side);
     const double error = mode.row_[k].error;
-    const bool low_holds = mode.positive(row[k].e - row[k].g, error), high_holds = mode.positive(row[k].e + row[k].g, error);
+    const bool low_holds = mode.positive(row[k].e - row[k].g, error),
+               high_holds = mode.positive(row[k].e + row[k].g, error);
     if (low_holds && high_holds) continue;
     if (!low_holds && !high_holds && magnitude(row[k].g) <= error) {  // the same on all of the side
       if (!leave_open(corner(k, true), of_rows)) return false;
@@ -183,10 +185,8 @@ bool SignedMode::SideConditions::collect() {
     // A row that holds at an end holds on all of the side where its slope has the other sign.
     if (high_holds || (!low_holds && lower(row[k].g) >= -error && leave_open(corner(k, true), of_rows)))
       rising[risings++] = k;
-    else if (low_holds || (upper(row[k].g) <= error && leave_open(corner(k, false), of_rows)))
-      falling[fallings++] = k;
-    else
-      return false;
+    else if (low_holds || (upper(row[k].g) <= error && leave_open(corner(k, false), of_rows))) falling[fallings++] = k;
+    else return false;
   }
   for (int i = 0; i < risings; ++i)
     for (int j = 0; j < fallings; ++j)

@@ -34,10 +34,8 @@ void Subdivision::run(double error, int most) {
     nodes_[index].error = -1;  // gone
     error_ -= parent.error;
     Rectangle one = parent.box, two = one;
-    if (one.b - one.a > one.hi - one.lo)
-      one.b = two.a = one.s();
-    else
-      one.hi = two.lo = one.t();
+    if (one.b - one.a > one.hi - one.lo) one.b = two.a = one.s();
+    else one.hi = two.lo = one.t();
     add(one, parent);
     add(two, parent);
   }
@@ -75,13 +73,13 @@ void Subdivision::add(const Rectangle& box, const Node& parent) {
 void Subdivision::measure(Node& node) {
   const double area = area_inside(node);
   node.areas = {0, area, area, 0};
-  const auto error_of = [this](const Areas& areas) { return areas.loose + (robust_only_ ? 0.5 * areas.open : areas.unsure); };
+  const auto error_of = [this](const Areas& areas) {
+    return areas.loose + (robust_only_ ? 0.5 * areas.open : areas.unsure);
+  };
   if (find_graphs(node)) {
     const Areas areas = cut(leaf_, node.pieces);
-    if (error_of(areas) <= error_of(node.areas))
-      node.areas = areas;
-    else
-      node.pieces.clear();
+    if (error_of(areas) <= error_of(node.areas)) node.areas = areas;
+    else node.pieces.clear();
   }
   node.error = error_of(node.areas);
   if (robust_only_) node.pieces.clear();

@@ -33,8 +33,8 @@ class Subdivision {
     Rectangle box;
     std::uint32_t everywhere = 0;
     std::vector<LeafMode> modes;  // neither everywhere nor nowhere
-    std::uint32_t unknown = 0;  // modes to look at again in parts of it
-    std::uint64_t edges = 0;    // of the polygon, that cross the rectangle
+    std::uint32_t unknown = 0;    // modes to look at again in parts of it
+    std::uint64_t edges = 0;      // of the polygon, that cross the rectangle
     std::vector<Piece> pieces;
     Areas areas;
     double error = 0;  // negative: halved

@@ -31,7 +31,8 @@ Sweep::Sweep(const RegionModes& modes, std::vector<Vector2d> polygon, double tol
 /// distance from there.
 void Sweep::make_strips() {
   const bool graded = s_end_ - s_begin_ > 8 * core_;
-  const double from = graded ? std::asinh(s_begin_ / core_) : s_begin_, to = graded ? std::asinh(s_end_ / core_) : s_end_;
+  const double from = graded ? std::asinh(s_begin_ / core_) : s_begin_,
+               to = graded ? std::asinh(s_end_ / core_) : s_end_;
   for (int k = 0; k < strip_count; ++k) {
     const auto border = [&](int i) {
       if (i == 0) return s_begin_;
@@ -83,7 +84,8 @@ void Sweep::classify(int mode, int first, int last, double lo, double hi, int t_
 }
 
 std::uint32_t Sweep::active_at(double s) const {
-  const auto after = std::partition_point(strips_.begin(), strips_.end(), [s](const Strip& strip) { return strip.b < s; });
+  const auto after =
+      std::partition_point(strips_.begin(), strips_.end(), [s](const Strip& strip) { return strip.b < s; });
   return after == strips_.end() ? strips_.back().active : after->active;
 }
 
@@ -96,10 +98,8 @@ bool Sweep::chord(double s, SweepLine& line) const {
     const Vector2d &p = polygon_[k], &q = polygon_[(k + 1) % polygon_.size()];
     if (!((p.x() <= s && s < q.x()) || (q.x() <= s && s < p.x()))) continue;
     const double t = p.y() + (q.y() - p.y()) * ((s - p.x()) / (q.x() - p.x()));
-    if (q.x() > p.x())
-      line.lo = t, line.lo_edge = static_cast<int>(k);
-    else
-      line.hi = t, line.hi_edge = static_cast<int>(k);
+    if (q.x() > p.x()) line.lo = t, line.lo_edge = static_cast<int>(k);
+    else line.hi = t, line.hi_edge = static_cast<int>(k);
   }
   return line.lo_edge >= 0 && line.hi_edge >= 0 && line.lo < line.hi;
 }

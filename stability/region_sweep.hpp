@@ -30,9 +30,9 @@ inline bool same(const SweepLine& x, const SweepLine& y) {
 /// Curve 0 is the lower edge, 1..n the crossings, n + 1 the upper edge; piece k lies between curves k and k + 1.
 struct Slab {
   double a = 0, b = 0;
-  std::vector<Crossing> curves;  ///< the crossings on the middle line
-  std::vector<std::uint32_t> modes;  ///< of each piece
-  std::vector<double> integral;      ///< of t over [a, b], of every curve
+  std::vector<Crossing> curves;          ///< the crossings on the middle line
+  std::vector<std::uint32_t> modes;      ///< of each piece
+  std::vector<double> integral;          ///< of t over [a, b], of every curve
   std::vector<double> at_a, at_m, at_b;  ///< t of every curve just inside a, in the middle, just inside b
   std::vector<double> slope;  ///< of the crossings' curves along the middle line: only its sign tells branches apart
   int lo_edge = -1, hi_edge = -1;

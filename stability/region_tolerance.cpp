@@ -30,8 +30,9 @@ double distance_to(const RegionModes& modes, int mode, double limit) {
     if (distance >= limit) return limit;
     if (count == most_squares || square.half < 0.5 * disc_precision * distance) return distance;
     open.pop();
-    const ModeThere there = mode_there(modes, mode, {square.s - square.half, square.s + square.half,
-                                                     square.t - square.half, square.t + square.half});
+    const ModeThere there =
+        mode_there(modes, mode,
+                   {square.s - square.half, square.s + square.half, square.t - square.half, square.t + square.half});
     if (there.kind == ModePart::nowhere) continue;
     if (there.kind == ModePart::everywhere) limit = std::min(limit, distance);
     if (there.feasible_in_middle) limit = std::min(limit, std::hypot(square.s, square.t));

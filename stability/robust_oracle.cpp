@@ -25,7 +25,8 @@ RobustOracle::RobustOracle(std::span<const Contact> contacts, double radius_of_g
   assert(std::isfinite(box.kappa) && box.kappa >= 0 && std::isfinite(box.nu) && box.nu >= 0);
 }
 
-bool robust(std::span<const Contact> contacts, double radius_of_gyration, const DisturbanceBox& box, const Vector2d& com) {
+bool robust(std::span<const Contact> contacts, double radius_of_gyration, const DisturbanceBox& box,
+            const Vector2d& com) {
   Posture posture(contacts, radius_of_gyration, Posture::Modes::deferred);
   PointQuery query(posture, com, box);
   if (!query.equilibrium()) return false;
@@ -70,7 +71,8 @@ LineVerdict RobustOracle::line(const Vector2d& from, const Vector2d& to) const {
     const ModeSpec& spec = posture_.modes()[k];
     const LineMode mode = query.feasible(spec, scan.reached[k]);
     if (mode.outcome == LineOutcome::feasible) return unstable(spec, mode.lambda);
-    if (mode.outcome == LineOutcome::uncertain) verdict = {Outcome::uncertain, mode.lambda, Critical::of(posture_, spec)};
+    if (mode.outcome == LineOutcome::uncertain)
+      verdict = {Outcome::uncertain, mode.lambda, Critical::of(posture_, spec)};
   }
   return verdict;
 }

@@ -103,7 +103,8 @@ class DocumentBuilder : public YAML::EventHandler {
   void tell(const YAML::Mark& mark, const std::string& message) const {
     if (!source_.faults) fail(mark, message);
     if (source_.faults->full()) return source_.faults->add(InputError(""));
-    source_.faults->add(source_.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column), message));
+    source_.faults->add(
+        source_.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column), message));
   }
 
   Node make(const YAML::Mark& mark) {
@@ -122,8 +123,8 @@ class DocumentBuilder : public YAML::EventHandler {
   }
 
   bool written_null(const YAML::Mark& mark) const {
-    const std::string_view rest = std::string_view(source_.text).substr(
-        std::min(source_.text.size(), static_cast<std::size_t>(mark.pos)));
+    const std::string_view rest =
+        std::string_view(source_.text).substr(std::min(source_.text.size(), static_cast<std::size_t>(mark.pos)));
     return rest.starts_with('~') || rest.starts_with("null") || rest.starts_with("Null") || rest.starts_with("NULL");
   }
 
@@ -211,7 +212,8 @@ class DocumentBuilder : public YAML::EventHandler {
 
 namespace {
 
-/// A message of the parser without the raw byte that it may end with (of an escape, or its mark for the end of the file).
+/// A message of the parser without the raw byte that it may end with (of an escape, or its mark for the end of the
+/// file).
 std::string readable(std::string message) {
   const auto raw = std::find_if(message.begin(), message.end(), [](char c) { return c < 0x20 || c > 0x7E; });
   if (raw == message.end()) return message;

@@ -23,9 +23,9 @@
 namespace surefoot::terrain {
 
 // Limits of what is read; beyond them InputError. A terrain of a million vertices has three million nodes.
-constexpr std::size_t max_depth = 64;                              // containers within containers
-constexpr std::size_t max_nodes = 16'000'000;                      // 48 bytes each
-constexpr std::size_t max_file_size = std::size_t{512} << 20;      // [bytes]
+constexpr std::size_t max_depth = 64;                          // containers within containers
+constexpr std::size_t max_nodes = 16'000'000;                  // 48 bytes each
+constexpr std::size_t max_file_size = std::size_t{512} << 20;  // [bytes]
 
 /// Bad input: one line "file:line:column: message" (no prefix, no line feed).
 class InputError : public std::runtime_error {
@@ -93,7 +93,7 @@ class Node {
 
   // Maps. Keys are scalars and unique (checked when the file is read). `what` names the map.
   const std::vector<std::pair<Node, Node>>& entries(std::string_view what) const;
-  const Node* find(std::string_view key) const;                     ///< nullptr if absent or not a map
+  const Node* find(std::string_view key) const;  ///< nullptr if absent or not a map
   /// Absent: InputError; AlreadyTold if allow_only has suggested it for a misspelt key.
   const Node& require(std::string_view key, std::string_view what) const;
   /// Refuses every key that is not listed, and suggests the nearest one that is. False if there is one (and faults are
@@ -148,8 +148,9 @@ class Document {
  public:
   /// Throws InputError: also for a file that is missing, a directory, unreadable, too large, empty or not text.
   static Document read_file(const std::string& path, FaultList* faults = nullptr);
-  /// `name` stands for the file in messages. With `faults` (which must outlive it), anchors, aliases, tags and duplicate
-  /// keys are kept there; what leaves no tree to read is thrown all the same (AlreadyTold if it is kept as well).
+  /// `name` stands for the file in messages. With `faults` (which must outlive it), anchors, aliases, tags and
+  /// duplicate keys are kept there; what leaves no tree to read is thrown all the same (AlreadyTold if it is kept as
+  /// well).
   static Document parse(std::string_view text, std::string name, FaultList* faults = nullptr);
   const Node& root() const { return root_; }
   Document(Document&&) noexcept;

@@ -11,7 +11,7 @@
 namespace surefoot::terrain {
 namespace {
 
-constexpr std::size_t longest_word = 64;   // longer ones have no near misses worth naming
+constexpr std::size_t longest_word = 64;  // longer ones have no near misses worth naming
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -97,7 +97,8 @@ FaultList* Node::faults() const { return source_ ? source_->faults : nullptr; }
 void Node::fail(const std::string& message) const {
   if (!source_) throw InputError("?: " + message);
   if (source_->faults && told_) throw AlreadyTold();
-  if (source_->faults && source_->faults->full()) throw InputError("");  // only counted: its place costs a look at the text
+  if (source_->faults && source_->faults->full())
+    throw InputError("");  // only counted: its place costs a look at the text
   throw source_->error(line_, column_, message);
 }
 
@@ -125,9 +126,7 @@ std::string_view Node::plain_scalar(std::string_view what, std::string_view expe
 
 double Node::number(std::string_view what) const {
   const std::string_view text = plain_scalar(what, "a number");
-  const auto fail_with = [&](const char* reason) {
-    fail(std::string(what) + ": " + shown(text) + " " + reason);
-  };
+  const auto fail_with = [&](const char* reason) { fail(std::string(what) + ": " + shown(text) + " " + reason); };
   const Form form = form_of(without_sign(text));
   if (form == Form::not_a_number) fail_with("is not a finite decimal number; expected a number such as 0.25 or 1e-3");
   if (form == Form::leading_zero) fail_with("has a leading zero; expected a decimal number without");
@@ -148,8 +147,7 @@ double Node::positive(std::string_view what) const {
 double Node::not_negative(std::string_view what) const {
   const double value = number(what);
   if (value >= 0) return value + 0.0;  // -0 becomes 0
-  fail(std::string(what) + ": " + shown(std::get<std::string_view>(content_)) +
-       " is negative; expected a number >= 0");
+  fail(std::string(what) + ": " + shown(std::get<std::string_view>(content_)) + " is negative; expected a number >= 0");
 }
 
 std::int64_t Node::integer(std::string_view what) const {

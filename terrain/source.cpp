@@ -72,8 +72,7 @@ std::string Source::place(std::size_t line, std::size_t byte_column) const {
 }
 
 InputError Source::error(std::size_t line, std::size_t byte_column, const std::string& message) const {
-  return InputError(place(line, byte_column) + ": " + message, line + 1,
-                    character_column(text, line, byte_column) + 1);
+  return InputError(place(line, byte_column) + ": " + message, line + 1, character_column(text, line, byte_column) + 1);
 }
 
 void Source::fail_at(std::size_t position, const std::string& message) const {

@@ -26,8 +26,8 @@ SpatialIndex::SpatialIndex(const std::vector<Piece>& pieces) {
   items.reserve(pieces.size());
   for (const Piece& piece : pieces) {
     const Box box = piece.box();
-    items.push_back({box.min_x / 2 + box.max_x / 2, box.min_y / 2 + box.max_y / 2,
-                     static_cast<std::int32_t>(items.size())});
+    items.push_back(
+        {box.min_x / 2 + box.max_x / 2, box.min_y / 2 + box.max_y / 2, static_cast<std::int32_t>(items.size())});
   }
   nodes_.reserve(pieces.size());
   ids_.resize(pieces.size());
@@ -56,13 +56,11 @@ void SpatialIndex::build(std::int32_t node, std::vector<Sortable>& items, std::i
   const std::int32_t half = begin + (end - begin) / 2;
   // Ties are broken by id, here and in the leaves: the tree does not depend on the selection algorithm.
   if (middles.max_x - middles.min_x >= middles.max_y - middles.min_y) {
-    std::nth_element(first + begin, first + half, first + end, [](const Sortable& l, const Sortable& r) {
-      return l.x != r.x ? l.x < r.x : l.id < r.id;
-    });
+    std::nth_element(first + begin, first + half, first + end,
+                     [](const Sortable& l, const Sortable& r) { return l.x != r.x ? l.x < r.x : l.id < r.id; });
   } else {
-    std::nth_element(first + begin, first + half, first + end, [](const Sortable& l, const Sortable& r) {
-      return l.y != r.y ? l.y < r.y : l.id < r.id;
-    });
+    std::nth_element(first + begin, first + half, first + end,
+                     [](const Sortable& l, const Sortable& r) { return l.y != r.y ? l.y < r.y : l.id < r.id; });
   }
   const auto child = static_cast<std::int32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + 2);

@@ -63,14 +63,11 @@ struct Stretch {
 class TerrainFault : public std::invalid_argument {
  public:
   TerrainFault(const std::string& message, int chain_, int vertex_, int other_chain_ = -1, int other_segment_ = -1)
-      : std::invalid_argument(message),
-        chain(chain_),
-        vertex(vertex_),
-        other_chain(other_chain_),
+      : std::invalid_argument(message), chain(chain_), vertex(vertex_), other_chain(other_chain_),
         other_segment(other_segment_) {}
-  int chain;          ///< -1: no chain in particular
-  int vertex;         ///< the vertex that is wrong, or that begins the segment that is wrong; -1: none in particular
-  int other_chain;    ///< where two segments meet: the other one (the earlier); else -1
+  int chain;        ///< -1: no chain in particular
+  int vertex;       ///< the vertex that is wrong, or that begins the segment that is wrong; -1: none in particular
+  int other_chain;  ///< where two segments meet: the other one (the earlier); else -1
   int other_segment;
 };
 
@@ -87,8 +84,8 @@ class Terrain {
   /// or touch themselves or each other, but for a chain that ends where it began. The first fault in the order of the
   /// chains is named. (The scene loader reports the same faults with file, line and column.)
   explicit Terrain(std::vector<Chain> chains);
-  /// Reports those faults rather than throwing the first: of the chains one by one and, only where these have none, where
-  /// chains cross. Nothing if a chain has a fault of its own; a terrain whose chains cross answers all the same.
+  /// Reports those faults rather than throwing the first: of the chains one by one and, only where these have none,
+  /// where chains cross. Nothing if a chain has a fault of its own; a terrain whose chains cross answers all the same.
   static std::optional<Terrain> examine(std::vector<Chain> chains, const TerrainFaultReport& report);
   ~Terrain();
   Terrain(Terrain&&) noexcept;
@@ -96,9 +93,9 @@ class Terrain {
 
   const std::vector<Segment>& segments() const { return segments_; }
   int chain_count() const { return static_cast<int>(chain_begin_.size()) - 1; }
-  double chain_length(int chain) const;              ///< [m]; std::out_of_range if there is no such chain
+  double chain_length(int chain) const;                ///< [m]; std::out_of_range if there is no such chain
   const Segment& segment(int chain, int index) const;  ///< std::out_of_range if there is no such segment
-  bool is_closed(int chain) const;                   ///< whether it ends where it begins
+  bool is_closed(int chain) const;                     ///< whether it ends where it begins
 
   /// The foothold at arc length s [m] of a chain; nothing if there is no such chain, s is outside it, on a vertex, or
   /// on a segment where no foot may stand.

@@ -40,8 +40,8 @@ double squared_distance(const Point& p, const Point& a, const Point& b) {
 
 double squared_distance(const Point& p, const Point& q, const Point& a, const Point& b) {
   if (segments_meet(p, q, a, b)) return 0;
-  return std::min({squared_distance(p, a, b), squared_distance(q, a, b), squared_distance(a, p, q),
-                   squared_distance(b, p, q)});
+  return std::min(
+      {squared_distance(p, a, b), squared_distance(q, a, b), squared_distance(a, p, q), squared_distance(b, p, q)});
 }
 
 /// A straight query line and what a box must pass to be of interest to it.
@@ -164,10 +164,9 @@ void Terrain::stretches_within(const Point& centre, double least, double greates
 
 double Terrain::distance(const Point& point, double greatest) const {
   double least = greatest * greatest;
-  index_->nearest(least, [&](const Box& box) { return box.squared_distance(point.x(), point.y()); },
-                  [&](std::int32_t, const Piece& piece) {
-                    least = std::min(least, squared_distance(point, piece.a, piece.b));
-                  });
+  index_->nearest(
+      least, [&](const Box& box) { return box.squared_distance(point.x(), point.y()); },
+      [&](std::int32_t, const Piece& piece) { least = std::min(least, squared_distance(point, piece.a, piece.b)); });
   return std::sqrt(least);
 }
 
@@ -175,11 +174,12 @@ double Terrain::distance(const Point& a, const Point& b, double greatest) const 
   if (a == b) return distance(a, greatest);
   const Probe probe(a, b);
   double least = greatest * greatest;
-  index_->nearest(least, [&](const Box& box) { return probe.squared_distance(box); },
-                  [&](std::int32_t, const Piece& piece) {
-                    if (!(probe.squared_distance(piece.box()) < least)) return;
-                    least = std::min(least, squared_distance(a, b, piece.a, piece.b));
-                  });
+  index_->nearest(
+      least, [&](const Box& box) { return probe.squared_distance(box); },
+      [&](std::int32_t, const Piece& piece) {
+        if (!(probe.squared_distance(piece.box()) < least)) return;
+        least = std::min(least, squared_distance(a, b, piece.a, piece.b));
+      });
   return std::sqrt(least);
 }
 

@@ -22,15 +22,8 @@ struct Body {
   S x, y, theta, vx, vy, omega;
 
   Body(const HybridBody& body, const BodyState& start)
-      : count(body.contacts()),
-        gravity(body.gravity()),
-        rho2(S(body.rho()) * S(body.rho())),
-        x(start.r.x()),
-        y(start.r.y()),
-        theta(start.theta),
-        vx(start.v.x()),
-        vy(start.v.y()),
-        omega(start.omega) {
+      : count(body.contacts()), gravity(body.gravity()), rho2(S(body.rho()) * S(body.rho())), x(start.r.x()),
+        y(start.r.y()), theta(start.theta), vx(start.v.x()), vy(start.v.y()), omega(start.omega) {
     using std::sqrt;
     for (int i = 0; i < count; ++i) {
       const Vector2d d = body.ground(i) - body.com();

@@ -24,8 +24,7 @@ std::string page(const std::vector<Measured>& all, bool quick) {
     if (item.plotted)
       text += fmt::format("Reference: {}. {}.\n\n![{}](figures/error_time/{}.svg)\n\n", item.reference, table,
                           item.what, item.name);
-    else
-      text += table + ".\n\n";
+    else text += table + ".\n\n";
     text += item.findings(one.rows);
     seconds += one.seconds;
   }

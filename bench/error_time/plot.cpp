@@ -51,14 +51,10 @@ struct Decades {
 class Plot {
  public:
   Plot(const Item& item, const Rows& rows)
-      : item_(item),
-        rows_(rows),
-        cases_(distinct(rows, &Row::scenario)),
-        methods_(distinct(rows, &Row::method)),
+      : item_(item), rows_(rows), cases_(distinct(rows, &Row::scenario)), methods_(distinct(rows, &Row::method)),
         columns_(cases_.size() == 4 ? 2 : std::min<int>(most_columns, static_cast<int>(cases_.size()))),
         lines_((static_cast<int>(cases_.size()) + columns_ - 1) / columns_),
-        panel_width_(cases_.size() == 1 ? 580 : 300),
-        panel_height_(cases_.size() == 1 ? 330 : 230),
+        panel_width_(cases_.size() == 1 ? 580 : 300), panel_height_(cases_.size() == 1 ? 330 : 230),
         canvas_(width(), height(), item.what) {
     bool any_time = false, any_error = false;
     for (const Row& row : rows.all()) {
@@ -220,15 +216,9 @@ class Plot {
     const Paint paint{.fill = colours[method % colours.size()], .stroke = "#fff", .width = 0.8};
     constexpr double r = 4;
     switch (method % 4) {
-      case 0:
-        canvas_.circle(at, r, paint, tooltip);
-        break;
-      case 1:
-        canvas_.rectangle(at - Vector2d(3.6, 3.6), 7.2, 7.2, paint);
-        break;
-      case 2:
-        canvas_.polygon({at + Vector2d(0, -5), at + Vector2d(4.6, 3.4), at + Vector2d(-4.6, 3.4)}, paint);
-        break;
+      case 0: canvas_.circle(at, r, paint, tooltip); break;
+      case 1: canvas_.rectangle(at - Vector2d(3.6, 3.6), 7.2, 7.2, paint); break;
+      case 2: canvas_.polygon({at + Vector2d(0, -5), at + Vector2d(4.6, 3.4), at + Vector2d(-4.6, 3.4)}, paint); break;
       default:
         canvas_.polygon({at + Vector2d(0, -5.2), at + Vector2d(5.2, 0), at + Vector2d(0, 5.2), at + Vector2d(-5.2, 0)},
                         paint);

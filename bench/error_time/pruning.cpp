@@ -127,8 +127,7 @@ Answers terrain_out_of_reach(const Given& given, bool with) {
   for (std::size_t k = 0; k + 1 < given.plan.stances.size(); ++k) {
     const Vector2d from = given.plan.stances[k].com, to = given.plan.stances[k + 1].com;
     double least = greatest;
-    if (with)
-      least = std::min(least, scene.terrain.distance(from, to, greatest));
+    if (with) least = std::min(least, scene.terrain.distance(from, to, greatest));
     else
       for (const terrain::Segment& s : scene.terrain.segments())
         least = std::min(least, gaits::bare::distance(from, to, s.a, s.b));

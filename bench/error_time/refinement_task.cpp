@@ -26,11 +26,8 @@ constexpr double widest = 0.8;
 class Window {
  public:
   Window(const RefinementTask& task, int budget)
-      : plan_(task.plan),
-        timeline_(plan_),
-        window_(*task.scene, plan_, timeline_, task.first, task.last, task.cap),
-        model_(window_.model()),
-        budget_(budget) {
+      : plan_(task.plan), timeline_(plan_), window_(*task.scene, plan_, timeline_, task.first, task.last, task.cap),
+        model_(window_.model()), budget_(budget) {
     const double far = widest * task.scene->robot.reach_max;
     lower_ = model_.lower.cwiseMax((window_.start().array() - far).matrix());
     upper_ = model_.upper.cwiseMin((window_.start().array() + far).matrix());

@@ -31,8 +31,9 @@ Case random_case(bool quick) {
   testing::Sampler sampler(71);
   const std::size_t count = quick ? 300 : 2000;
   while (made.postures.size() < count)
-    made.postures.push_back(sampler.posture(
-        testing::generic_kinds[made.postures.size() % testing::generic_kinds.size()], sampler.integer(2, 3)));
+    made.postures.push_back(
+        sampler.posture(testing::generic_kinds[made.postures.size() % testing::generic_kinds.size()],
+                        sampler.integer(2, 3)));
   return made;
 }
 

@@ -25,8 +25,6 @@ int main() {
   const LineVerdict way = oracle.line(low, high);
   const Eigen::Vector2d place = low + way.lambda * (high - low);
   std::printf("\nthe straight way there: ");
-  if (way.stable())
-    std::printf("safe\n");
-  else
-    std::printf("%s is possible at COM (%.3f, %.3f)\n", way.cause.name().c_str(), place.x(), place.y());
+  if (way.stable()) std::printf("safe\n");
+  else std::printf("%s is possible at COM (%.3f, %.3f)\n", way.cause.name().c_str(), place.x(), place.y());
 }

@@ -68,27 +68,13 @@ class Mutator {
   void change(std::string& text, const std::string& other) {
     const std::size_t at = below(text.size() + 1), length = below(std::min<std::size_t>(text.size() - at, 64) + 1);
     switch (below(8)) {
-      case 0:
-        text.insert(at, tokens_[below(tokens_.size())]);
-        return;
-      case 1:
-        text.replace(at, length, tokens_[below(tokens_.size())]);
-        return;
-      case 2:
-        text.erase(at, length);
-        return;
-      case 3:
-        text.insert(below(text.size() + 1), text.substr(at, length));
-        return;
-      case 4:
-        text.insert(at, other.substr(below(other.size() + 1), 1 + below(64)));
-        return;
-      case 5:
-        text.insert(at, 1, static_cast<char>(below(256)));
-        return;
-      case 6:
-        change_digit(text, at);
-        return;
+      case 0: text.insert(at, tokens_[below(tokens_.size())]); return;
+      case 1: text.replace(at, length, tokens_[below(tokens_.size())]); return;
+      case 2: text.erase(at, length); return;
+      case 3: text.insert(below(text.size() + 1), text.substr(at, length)); return;
+      case 4: text.insert(at, other.substr(below(other.size() + 1), 1 + below(64))); return;
+      case 5: text.insert(at, 1, static_cast<char>(below(256))); return;
+      case 6: change_digit(text, at); return;
       default:
         if (at < text.size()) text[at] = static_cast<char>(text[at] ^ (1 << below(8)));
     }
@@ -108,10 +94,8 @@ std::string visible(const std::string& text) {
   for (const char c : text) {
     constexpr const char* digits = "0123456789abcdef";
     const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte < 0x7F && c != '\\')
-      shown += c;
-    else
-      shown += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+    if (byte >= 0x20 && byte < 0x7F && c != '\\') shown += c;
+    else shown += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
   }
   return shown;
 }

@@ -84,8 +84,19 @@ void require_reads_back(const Plan& plan) {
 class Doubles {
  public:
   double any() {
-    static const std::vector<double> awkward{0.0, -0.0, 1.0, -1.0, 0.1, 1e-7, 1e22, 1e23, 123456789012.0, 5e-324, -5e-324,
-                                             std::numeric_limits<double>::max(), std::numeric_limits<double>::min()};
+    static const std::vector<double> awkward{0.0,
+                                             -0.0,
+                                             1.0,
+                                             -1.0,
+                                             0.1,
+                                             1e-7,
+                                             1e22,
+                                             1e23,
+                                             123456789012.0,
+                                             5e-324,
+                                             -5e-324,
+                                             std::numeric_limits<double>::max(),
+                                             std::numeric_limits<double>::min()};
     if (bits_() % 4 == 0) return awkward[bits_() % awkward.size()];
     for (;;)
       if (const double value = std::bit_cast<double>(bits_()); std::isfinite(value)) return value;
@@ -100,8 +111,8 @@ class Doubles {
 
 Plan random_plan(Doubles& random) {
   const auto foothold = [&] {
-    return Foothold{random.below(1000), random.below(1000000), random.any(), {random.any(), random.any()},
-                    {random.any(), random.any()}, random.not_negative()};
+    return Foothold{random.below(1000),           random.below(1000000),        random.any(),
+                    {random.any(), random.any()}, {random.any(), random.any()}, random.not_negative()};
   };
   const auto limit = [&] { return std::vector<std::string>{"", "equilibrium", "UF", "none", "FWR"}[random.below(5)]; };
   Plan plan;
@@ -122,12 +133,63 @@ Plan random_plan(Doubles& random) {
   return plan;
 }
 
-const std::vector<std::string> nasty_strings{
-    "", " ", "yes", "No", "null", "~", "true", "y", "n", "on", "1e3", "0x1f", "010", "1_000", ".inf", ".nan", "inf", "nan", "=",
-    "<<", "2024-01-01", "12:30:45", "a: b", "a #b", "- a", "? a", "{a}", "[a", "*a", "&a", "!a", "%a", "@a", "`a", "|", ">",
-    "'", "\"", "it's \"so\"", "back\\slash", "\\n", "line\nfeed", "\n", "tab\tcr\r\n", " lead", "trail ", "_",
-    "stairs up (2)", "\xc3\xa9t\xc3\xa9 \xe2\x86\x92 \xf0\x9f\xa6\xbf", std::string("nul\0inside", 10), "\x01\x1b[31m\x7f",
-    "\xc2\x85\xc2\x9f\xe2\x80\xa8\xe2\x80\xa9\xef\xbb\xbf\xef\xbf\xbe", "---", "...", "# no", "key", "stances"};
+const std::vector<std::string> nasty_strings{"",
+                                             " ",
+                                             "yes",
+                                             "No",
+                                             "null",
+                                             "~",
+                                             "true",
+                                             "y",
+                                             "n",
+                                             "on",
+                                             "1e3",
+                                             "0x1f",
+                                             "010",
+                                             "1_000",
+                                             ".inf",
+                                             ".nan",
+                                             "inf",
+                                             "nan",
+                                             "=",
+                                             "<<",
+                                             "2024-01-01",
+                                             "12:30:45",
+                                             "a: b",
+                                             "a #b",
+                                             "- a",
+                                             "? a",
+                                             "{a}",
+                                             "[a",
+                                             "*a",
+                                             "&a",
+                                             "!a",
+                                             "%a",
+                                             "@a",
+                                             "`a",
+                                             "|",
+                                             ">",
+                                             "'",
+                                             "\"",
+                                             "it's \"so\"",
+                                             "back\\slash",
+                                             "\\n",
+                                             "line\nfeed",
+                                             "\n",
+                                             "tab\tcr\r\n",
+                                             " lead",
+                                             "trail ",
+                                             "_",
+                                             "stairs up (2)",
+                                             "\xc3\xa9t\xc3\xa9 \xe2\x86\x92 \xf0\x9f\xa6\xbf",
+                                             std::string("nul\0inside", 10),
+                                             "\x01\x1b[31m\x7f",
+                                             "\xc2\x85\xc2\x9f\xe2\x80\xa8\xe2\x80\xa9\xef\xbb\xbf\xef\xbf\xbe",
+                                             "---",
+                                             "...",
+                                             "# no",
+                                             "key",
+                                             "stances"};
 
 }  // namespace
 

@@ -17,11 +17,11 @@
 namespace {
 
 using namespace surefoot::gaits;
+using boost::property_tree::ptree;
 using surefoot::gaits::testing::chain;
 using surefoot::gaits::testing::level_ground_and;
 using surefoot::gaits::testing::plan_by_hand;
 using surefoot::gaits::testing::scene_on;
-using boost::property_tree::ptree;
 
 ptree read_xml_text(const std::string& text) {
   std::istringstream stream(text);
@@ -122,10 +122,16 @@ TEST_CASE("the table says where each leg comes from and goes to", "[plan_text]")
   INFO(text);
   const auto says = [&](const std::string& words) { return text.find(words) != std::string::npos; };
   REQUIRE(text.starts_with("hand: solved in 2 steps\n"));
-  REQUIRE(std::regex_search(text, std::regex(R"(\n +1 +3 +in the air +0\.600 +0\.000 +1 2 +0\.000 +0\.500 +0\.400 +0\.500 +1 +2\.50 )")));
-  REQUIRE(std::regex_search(text, std::regex(R"(\n +2 +1 +-0\.200 +0\.000 +1\.000 +0\.000 +2 3 +0\.400 +0\.500 +0\.800 +0\.500 +2 .* 1\.40 +UFF\n)")));
+  REQUIRE(std::regex_search(
+      text, std::regex(R"(\n +1 +3 +in the air +0\.600 +0\.000 +1 2 +0\.000 +0\.500 +0\.400 +0\.500 +1 +2\.50 )")));
+  REQUIRE(std::regex_search(
+      text,
+      std::regex(
+          R"(\n +2 +1 +-0\.200 +0\.000 +1\.000 +0\.000 +2 3 +0\.400 +0\.500 +0\.800 +0\.500 +2 .* 1\.40 +UFF\n)")));
   REQUIRE(std::regex_search(text, std::regex(R"(\n +end +1 3 +0\.800 +0\.500 +2\.50)")));
-  REQUIRE(says("2 steps, COM travels 0.800 m, least safety factor 1.40 in the transfer of step 2 (UFF), 1.25 before refinement"));
+  REQUIRE(
+      says("2 steps, COM travels 0.800 m, least safety factor 1.40 in the transfer of step 2 (UFF), 1.25 before "
+           "refinement"));
   REQUIRE(says("planner RRT, seed 7, 0.012 s"));
   REQUIRE(says("frictional stability: no restitution is given"));
 }
@@ -235,7 +241,8 @@ TEST_CASE("positions in the picture agree with the scale bar, and R_SS(W) with t
   each_element(tree, [&](const std::string& name, const ptree& element) {
     const auto at = [&](const char* key) { return element.get<double>(std::string("<xmlattr>.") + key); };
     if (name == "circle" && element.count("title")) coms.emplace_back(at("cx"), at("cy"));
-    if (element.get("<xmlattr>.class", "") == "support") supports.push_back(element.get<std::string>("<xmlattr>.points"));
+    if (element.get("<xmlattr>.class", "") == "support")
+      supports.push_back(element.get<std::string>("<xmlattr>.points"));
     if (name == "line" && bar == 0) bar = at("x2") - at("x1");  // the first line drawn
     if (name == "text" && bar_metres == 0 && element.data().ends_with(" m")) bar_metres = std::stod(element.data());
   });
@@ -285,8 +292,8 @@ TEST_CASE("odd plans are drawn as far as they go", "[plan_svg]") {
   plan.reason = "start & goal";
   REQUIRE(count_class(read_xml_text(to_svg(scene, plan)), "stance") == 0);
   plan = plan_by_hand(scene);
-  plan.stances[1].feet = {};                  // no foot
-  plan.stances[2].feet[0]->chain = 7;         // a foothold of another scene
+  plan.stances[1].feet = {};           // no foot
+  plan.stances[2].feet[0]->chain = 7;  // a foothold of another scene
   plan.stances[2].feet[2]->segment = 100000;
   plan.transfers.clear();
   REQUIRE(count_class(read_xml_text(to_svg(scene, plan)), "stance") == 3);
@@ -294,9 +301,9 @@ TEST_CASE("odd plans are drawn as far as they go", "[plan_svg]") {
 }
 
 TEST_CASE("ceilings, walls, islands and nested chains are drawn", "[plan_svg]") {
-  const Scene scene = scene_on({chain({{-5, 0}, {5, 0}}), chain({{5, 3}, {-5, 3}}), chain({{7, -1}, {7, 4}}),
-                                chain({{1, 1}, {1, 1.2}, {1.5, 1.2}, {1.5, 1}, {1.01, 0.99}}),
-                                chain({{-3, 1}, {-2, 1}})});
+  const Scene scene =
+      scene_on({chain({{-5, 0}, {5, 0}}), chain({{5, 3}, {-5, 3}}), chain({{7, -1}, {7, 4}}),
+                chain({{1, 1}, {1, 1.2}, {1.5, 1.2}, {1.5, 1}, {1.01, 0.99}}), chain({{-3, 1}, {-2, 1}})});
   REQUIRE(count_class(read_xml_text(to_svg(scene, plan_by_hand(scene))), "stance") == 3);
 }
 
@@ -307,7 +314,9 @@ TEST_CASE("no locale changes what is written", "[plan_text][plan_svg][plan_io]")
   };
   const Scene scene = long_ground();
   const Plan plan = long_walk(scene, 30, 0);
-  const auto all = [&] { return to_text(scene, plan) + to_json(plan) + to_yaml(plan) + to_svg(scene, plan) + to_html(scene, plan); };
+  const auto all = [&] {
+    return to_text(scene, plan) + to_json(plan) + to_yaml(plan) + to_svg(scene, plan) + to_html(scene, plan);
+  };
   const std::string before = all();
   const std::locale old = std::locale::global(std::locale(std::locale::classic(), new Comma));
   std::setlocale(LC_ALL, "de_DE.UTF-8");  // does nothing where it is not installed

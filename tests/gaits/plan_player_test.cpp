@@ -14,12 +14,12 @@
 namespace {
 
 using namespace surefoot::gaits;
+using Eigen::Vector2d;
+using nlohmann::json;
 using surefoot::gaits::testing::chain;
 using surefoot::gaits::testing::level_ground_and;
 using surefoot::gaits::testing::plan_by_hand;
 using surefoot::gaits::testing::scene_on;
-using nlohmann::json;
-using Eigen::Vector2d;
 
 int count(const std::string& text, const std::string& piece) {
   int found = 0;

@@ -141,30 +141,32 @@ TEST_CASE("the goal is a box with its border", "[scene]") {
 }
 
 TEST_CASE("unknown keys are refused at every level, where they stand", "[scene]") {
-  const Fault fault = GENERATE(
-      Fault{"name: test", "nam: test", "s.yaml:2:1: scene: unknown key \"nam\"; did you mean \"name\"?"},
-      Fault{"friction: 0.6", "frictoin: 0.6", "s.yaml:4:3: terrain: unknown key \"frictoin\""},
-      Fault{"clearance: 0.05", "clearence: 0.05", "s.yaml:12:3: robot: unknown key \"clearence\"; did you mean"},
-      Fault{"nu: 0.03", "mu: 0.03", "s.yaml:14:27: disturbance: unknown key \"mu\""},
-      Fault{"restitution: 0.1", "e: 0.1", "s.yaml:17:3: stability: unknown key \"e\""},
-      Fault{"support: [2, 1]", "supports: [2, 1]", "s.yaml:20:3: start: unknown key \"supports\""},
-      Fault{"{x: 0.1}", "{z: 0.1}", "s.yaml:19:22: foot: unknown key \"z\""},
-      Fault{"com_x:", "x:", "s.yaml:22:8: goal: unknown key \"x\""},
-      Fault{"seed: 7", "sede: 7", "s.yaml:23:10: search: unknown key \"sede\"; did you mean \"seed\"?"});
+  const Fault fault =
+      GENERATE(Fault{"name: test", "nam: test", "s.yaml:2:1: scene: unknown key \"nam\"; did you mean \"name\"?"},
+               Fault{"friction: 0.6", "frictoin: 0.6", "s.yaml:4:3: terrain: unknown key \"frictoin\""},
+               Fault{"clearance: 0.05", "clearence: 0.05",
+                     "s.yaml:12:3: robot: unknown key \"clearence\"; did you mean"},
+               Fault{"nu: 0.03", "mu: 0.03", "s.yaml:14:27: disturbance: unknown key \"mu\""},
+               Fault{"restitution: 0.1", "e: 0.1", "s.yaml:17:3: stability: unknown key \"e\""},
+               Fault{"support: [2, 1]", "supports: [2, 1]", "s.yaml:20:3: start: unknown key \"supports\""},
+               Fault{"{x: 0.1}", "{z: 0.1}", "s.yaml:19:22: foot: unknown key \"z\""},
+               Fault{"com_x:", "x:", "s.yaml:22:8: goal: unknown key \"x\""},
+               Fault{"seed: 7", "sede: 7", "s.yaml:23:10: search: unknown key \"sede\"; did you mean \"seed\"?"});
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
 }
 
 TEST_CASE("what is required is missed", "[scene]") {
-  const Fault fault = GENERATE(
-      Fault{"surefoot: 1\n", "", "s.yaml:1:1: scene: \"surefoot\" is missing"},
-      Fault{"disturbance: {kappa: 0.1, nu: 0.03}\n", "", "s.yaml:1:1: scene: \"disturbance\" is missing"},
-      Fault{"{kappa: 0.1, nu: 0.03}", "{nu: 0.03}", "s.yaml:14:14: disturbance: \"kappa\" is missing"},
-      Fault{"  radius_of_gyration: 0.12\n", "", "s.yaml:10:3: robot: \"radius_of_gyration\" is missing"},
-      Fault{"  reach: [0.2, 0.9]\n", "", "s.yaml:10:3: robot: \"reach\" is missing"},
-      Fault{"  feet: [{x: -0.2}, {x: 0.1}, {chain: 0, s: 1.75}]\n", "", "s.yaml:19:3: start: \"feet\" is missing"},
-      Fault{"{chain: 0, s: 1.75}", "{chain: 0}", "s.yaml:19:31: foot: \"s\" is missing"},
-      Fault{"{chain: 0, s: 1.75}", "{s: 1.75}", "s.yaml:19:31: foot: \"chain\" is missing"},
-      Fault{"{com_x: [1.6, 1.9], com_y: [0.5, 0.5]}", "{}", "s.yaml:22:7: goal: nothing is given; expected"});
+  const Fault fault =
+      GENERATE(Fault{"surefoot: 1\n", "", "s.yaml:1:1: scene: \"surefoot\" is missing"},
+               Fault{"disturbance: {kappa: 0.1, nu: 0.03}\n", "", "s.yaml:1:1: scene: \"disturbance\" is missing"},
+               Fault{"{kappa: 0.1, nu: 0.03}", "{nu: 0.03}", "s.yaml:14:14: disturbance: \"kappa\" is missing"},
+               Fault{"  radius_of_gyration: 0.12\n", "", "s.yaml:10:3: robot: \"radius_of_gyration\" is missing"},
+               Fault{"  reach: [0.2, 0.9]\n", "", "s.yaml:10:3: robot: \"reach\" is missing"},
+               Fault{"  feet: [{x: -0.2}, {x: 0.1}, {chain: 0, s: 1.75}]\n", "",
+                     "s.yaml:19:3: start: \"feet\" is missing"},
+               Fault{"{chain: 0, s: 1.75}", "{chain: 0}", "s.yaml:19:31: foot: \"s\" is missing"},
+               Fault{"{chain: 0, s: 1.75}", "{s: 1.75}", "s.yaml:19:31: foot: \"chain\" is missing"},
+               Fault{"{com_x: [1.6, 1.9], com_y: [0.5, 0.5]}", "{}", "s.yaml:22:7: goal: nothing is given; expected"});
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
 }
 
@@ -177,33 +179,34 @@ TEST_CASE("another format version is refused", "[scene]") {
 }
 
 TEST_CASE("numbers out of range are refused where they stand", "[scene]") {
-  const Fault fault = GENERATE(
-      Fault{"reach: [0.2, 0.9]", "reach: [-0.1, 0.9]", "s.yaml:11:11: least reach: -0.1 is negative"},
-      Fault{"reach: [0.2, 0.9]", "reach: [0.9, 0.9]", "s.yaml:11:10: reach: [0.9, 0.9] is empty"},
-      Fault{"reach: [0.2, 0.9]", "reach: [0.9, 0.2]", "s.yaml:11:10: reach: [0.9, 0.2] is empty"},
-      Fault{"reach: [0.2, 0.9]", "reach: [0.2]", "s.yaml:11:10: reach [least, greatest]: a list of 1 item is given"},
-      Fault{"reach: [0.2, 0.9]", "reach: 0.9", "s.yaml:11:10: reach [least, greatest]: 0.9 is given"},
-      Fault{"reach: [0.2, 0.9]", "reach: [0.2, 1e200]", "s.yaml:11:16: greatest reach: 1e+200 is too large"},
-      Fault{"reach: [0.2, 0.9]", "reach: [0.2, .inf]", "s.yaml:11:16: greatest reach: .inf is not a finite"},
-      Fault{"gyration: 0.12", "gyration: 0", "s.yaml:10:23: radius_of_gyration: 0 is not positive"},
-      Fault{"gyration: 0.12", "gyration: -1", "s.yaml:10:23: radius_of_gyration: -1 is not positive"},
-      Fault{"gyration: 0.12", "gyration: .nan", "s.yaml:10:23: radius_of_gyration: .nan is not a finite"},
-      Fault{"gyration: 0.12", "gyration: 1e-200", "s.yaml:10:23: radius_of_gyration: 1e-200 is too small"},
-      Fault{"clearance: 0.05", "clearance: -0.05", "s.yaml:12:14: clearance: -0.05 is negative"},
-      Fault{"mass: 10", "mass: 0", "s.yaml:13:9: mass: 0 is not positive"},
-      Fault{"kappa: 0.1", "kappa: -0.1", "s.yaml:14:22: kappa: -0.1 is negative"},
-      Fault{"nu: 0.03", "nu: -1e-9", "s.yaml:14:31: nu: -1e-9 is negative"},
-      Fault{"nu: 0.03", "nu: ten", "s.yaml:14:31: nu: ten is not a finite"},
-      Fault{"restitution: 0.1", "restitution: 0", "s.yaml:17:16: restitution: 0 is out of range"},
-      Fault{"restitution: 0.1", "restitution: 1", "s.yaml:17:16: restitution: 1 is out of range"},
-      Fault{"com: [-0.05, 0.5]", "com: [-0.05]", "s.yaml:21:8: com [x, y]: a list of 1 item"},
-      Fault{"com: [-0.05, 0.5]", "com: [-0.05, up]", "s.yaml:21:16: y of com: up is not a finite"},
-      Fault{"com_x: [1.6, 1.9]", "com_x: [1.9, 1.6]", "s.yaml:22:15: com_x: [1.9, 1.6] is empty"},
-      Fault{"com_y: [0.5, 0.5]", "com_y: 0.5", "s.yaml:22:34: com_y [least, greatest]: 0.5 is given"},
-      Fault{"seed: 7", "seed: 0", "s.yaml:23:16: seed: 0 is out of range; expected 1 to 2147483562"},
-      Fault{"seed: 7", "seed: 2147483563", "s.yaml:23:16: seed: 2147483563 is out of range"},
-      Fault{"seed: 7", "seed: 1.5", "s.yaml:23:16: seed: 1.5 is not an integer"},
-      Fault{"time_limit: 2.5", "time_limit: 0", "s.yaml:23:31: time_limit: 0 is not positive"});
+  const Fault fault =
+      GENERATE(Fault{"reach: [0.2, 0.9]", "reach: [-0.1, 0.9]", "s.yaml:11:11: least reach: -0.1 is negative"},
+               Fault{"reach: [0.2, 0.9]", "reach: [0.9, 0.9]", "s.yaml:11:10: reach: [0.9, 0.9] is empty"},
+               Fault{"reach: [0.2, 0.9]", "reach: [0.9, 0.2]", "s.yaml:11:10: reach: [0.9, 0.2] is empty"},
+               Fault{"reach: [0.2, 0.9]", "reach: [0.2]",
+                     "s.yaml:11:10: reach [least, greatest]: a list of 1 item is given"},
+               Fault{"reach: [0.2, 0.9]", "reach: 0.9", "s.yaml:11:10: reach [least, greatest]: 0.9 is given"},
+               Fault{"reach: [0.2, 0.9]", "reach: [0.2, 1e200]", "s.yaml:11:16: greatest reach: 1e+200 is too large"},
+               Fault{"reach: [0.2, 0.9]", "reach: [0.2, .inf]", "s.yaml:11:16: greatest reach: .inf is not a finite"},
+               Fault{"gyration: 0.12", "gyration: 0", "s.yaml:10:23: radius_of_gyration: 0 is not positive"},
+               Fault{"gyration: 0.12", "gyration: -1", "s.yaml:10:23: radius_of_gyration: -1 is not positive"},
+               Fault{"gyration: 0.12", "gyration: .nan", "s.yaml:10:23: radius_of_gyration: .nan is not a finite"},
+               Fault{"gyration: 0.12", "gyration: 1e-200", "s.yaml:10:23: radius_of_gyration: 1e-200 is too small"},
+               Fault{"clearance: 0.05", "clearance: -0.05", "s.yaml:12:14: clearance: -0.05 is negative"},
+               Fault{"mass: 10", "mass: 0", "s.yaml:13:9: mass: 0 is not positive"},
+               Fault{"kappa: 0.1", "kappa: -0.1", "s.yaml:14:22: kappa: -0.1 is negative"},
+               Fault{"nu: 0.03", "nu: -1e-9", "s.yaml:14:31: nu: -1e-9 is negative"},
+               Fault{"nu: 0.03", "nu: ten", "s.yaml:14:31: nu: ten is not a finite"},
+               Fault{"restitution: 0.1", "restitution: 0", "s.yaml:17:16: restitution: 0 is out of range"},
+               Fault{"restitution: 0.1", "restitution: 1", "s.yaml:17:16: restitution: 1 is out of range"},
+               Fault{"com: [-0.05, 0.5]", "com: [-0.05]", "s.yaml:21:8: com [x, y]: a list of 1 item"},
+               Fault{"com: [-0.05, 0.5]", "com: [-0.05, up]", "s.yaml:21:16: y of com: up is not a finite"},
+               Fault{"com_x: [1.6, 1.9]", "com_x: [1.9, 1.6]", "s.yaml:22:15: com_x: [1.9, 1.6] is empty"},
+               Fault{"com_y: [0.5, 0.5]", "com_y: 0.5", "s.yaml:22:34: com_y [least, greatest]: 0.5 is given"},
+               Fault{"seed: 7", "seed: 0", "s.yaml:23:16: seed: 0 is out of range; expected 1 to 2147483562"},
+               Fault{"seed: 7", "seed: 2147483563", "s.yaml:23:16: seed: 2147483563 is out of range"},
+               Fault{"seed: 7", "seed: 1.5", "s.yaml:23:16: seed: 1.5 is not an integer"},
+               Fault{"time_limit: 2.5", "time_limit: 0", "s.yaml:23:31: time_limit: 0 is not positive"});
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
 }
 
@@ -243,12 +246,13 @@ TEST_CASE("feet that cannot stand where they are put are refused", "[scene]") {
 }
 
 TEST_CASE("a support that cannot be is refused", "[scene]") {
-  const Fault fault = GENERATE(
-      Fault{"support: [2, 1]", "support: [2, 2]", "s.yaml:20:12: support: leg 2 is named twice"},
-      Fault{"support: [2, 1]", "support: [0, 1]", "s.yaml:20:13: support: leg 0 does not exist; expected 1 to 3"},
-      Fault{"support: [2, 1]", "support: [2, 4]", "s.yaml:20:16: support: leg 4 does not exist"},
-      Fault{"support: [2, 1]", "support: [1, 2, 3]", "s.yaml:20:12: support [leg, leg]: a list of 3 items"},
-      Fault{"{x: 0.1}", "null", "s.yaml:20:13: support: leg 2 starts in the air"});
+  const Fault fault =
+      GENERATE(Fault{"support: [2, 1]", "support: [2, 2]", "s.yaml:20:12: support: leg 2 is named twice"},
+               Fault{"support: [2, 1]", "support: [0, 1]",
+                     "s.yaml:20:13: support: leg 0 does not exist; expected 1 to 3"},
+               Fault{"support: [2, 1]", "support: [2, 4]", "s.yaml:20:16: support: leg 4 does not exist"},
+               Fault{"support: [2, 1]", "support: [1, 2, 3]", "s.yaml:20:12: support [leg, leg]: a list of 3 items"},
+               Fault{"{x: 0.1}", "null", "s.yaml:20:13: support: leg 2 starts in the air"});
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
 }
 

@@ -376,8 +376,8 @@ TEST_CASE("a leg that was set down and lifted again swings from where it was set
   plan.transfers.insert(plan.transfers.begin(), Transfer{2, foot_at(scene, 5.45), 2, 0, ""});
   rate(scene, plan);
   require_only(verify(scene, plan), Rule::swing, "transfer 2 (leg 3)", "cannot swing from (0.45, 0) to (0.6, 0)");
-  CHECK(broken_transfer_rule(scene, plan.stances[1], plan.transfers[1], plan.stances[2].com,
-                             foot_at(scene, 5.45)) == Rule::swing);
+  CHECK(broken_transfer_rule(scene, plan.stances[1], plan.transfers[1], plan.stances[2].com, foot_at(scene, 5.45)) ==
+        Rule::swing);
 }
 
 TEST_CASE("stated safety factors are compared with those found", "[verifier]") {

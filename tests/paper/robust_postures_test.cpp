@@ -140,7 +140,8 @@ TEST_CASE("[OR-P, Lemma VI.1] is exact for kappa = 0 and upward normals", "[pape
     double first = std::numeric_limits<double>::infinity(), second = first;
     for (const Contact& contact : sample.contacts) {
       const Eigen::Vector2d n = contact.normal.normalized(), t(n.y(), -n.x());
-      const double inertia = sample.rho * sample.rho * n.y(), turn = sample.box.nu * (sample.com - contact.position).dot(t);
+      const double inertia = sample.rho * sample.rho * n.y(),
+                   turn = sample.box.nu * (sample.com - contact.position).dot(t);
       first = std::min(first, turn - inertia);
       second = std::min(second, -turn - inertia);
     }

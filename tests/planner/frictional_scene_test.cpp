@@ -20,8 +20,9 @@ gaits::Scene scene_with(const std::string& stability) {
       "surefoot: 1\nname: low\nterrain:\n  friction: 2\n  chains:\n    - vertices: [[-3, 0], [8, 0]]\n"
       "robot: {radius_of_gyration: 0.15, reach: [0.05, 1.6], clearance: 0.03}\n"
       "disturbance: {kappa: 0.05, nu: 0.01}\n" +
-          stability + "start: {feet: [{x: -0.4}, {x: 0.4}, {x: -0.3}], support: [1, 2], com: [0, 0.12]}\n"
-      "goal: {com_x: [1.5, 2]}\n",
+          stability +
+          "start: {feet: [{x: -0.4}, {x: 0.4}, {x: -0.3}], support: [1, 2], com: [0, 0.12]}\n"
+          "goal: {com_x: [1.5, 2]}\n",
       "low");
 }
 

@@ -47,7 +47,7 @@ gaits::Scene canned(const std::string& name) {
 struct Expected {
   const char* scene;
   Obstacle obstacle;
-  const char* words;  // in the reason
+  const char* words;    // in the reason
   double x_from, x_to;  // [m] the place lies within
 };
 constexpr double any = 1e9;

@@ -1,5 +1,5 @@
-// The planner Layers: its lattice, its bounds, its plans, and its place among OMPL's planners. (Its plans against those of
-// an exhaustive search: bench/exhaustive.cpp.)
+// The planner Layers: its lattice, its bounds, its plans, and its place among OMPL's planners. (Its plans against those
+// of an exhaustive search: bench/exhaustive.cpp.)
 #include <sched.h>
 
 #include <atomic>
@@ -26,7 +26,8 @@ std::string scene_text(const std::string& vertices, double goal, const std::stri
   return "surefoot: 1\nterrain:\n  friction: 0.6\n  chains:\n    - vertices: " + vertices +
          "\nrobot: {radius_of_gyration: 0.2, reach: [0.2, 0.9], clearance: 0.1}\n"
          "disturbance: {kappa: 0.08, nu: 0.02}\nstart: {feet: [{x: -0.4}, {x: 0.15}, {x: -0.1}], support: [1, 2]}\n"
-         "goal: {com_x: [" + std::to_string(goal) + ", " + std::to_string(goal + 0.4) + "]}\n" + stability;
+         "goal: {com_x: [" +
+         std::to_string(goal) + ", " + std::to_string(goal + 0.4) + "]}\n" + stability;
 }
 
 const std::string level = "[[-1, 0], [5, 0]]";

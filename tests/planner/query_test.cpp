@@ -255,11 +255,14 @@ TEST_CASE("The statistics tell which decisions were exact", "[query][program]") 
   CHECK(counts(run.err, "modes at a COM").first > 0);
   CHECK(counts(run.err, "modes on an interval of a line").first == 0);
   // COM exactly on the facet of tipping over the left foot without disturbances: doubles cannot tell.
-  const auto on_facet = place.run("query --stats", R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}, )"
-                                                   R"({"p": [1,0], "n": [0,1], "mu": 0.5}], "com": [0,0.4], "rho": 0.2, )"
-                                                   R"("kappa": 0, "nu": 0})" "\n");
+  const auto on_facet =
+      place.run("query --stats", R"({"contacts": [{"p": [0,0], "n": [0,1], "mu": 0.5}, )"
+                                 R"({"p": [1,0], "n": [0,1], "mu": 0.5}], "com": [0,0.4], "rho": 0.2, )"
+                                 R"("kappa": 0, "nu": 0})"
+                                 "\n");
   CHECK(counts(on_facet.err, "facets of the equilibrium cone").second > 0);
   CHECK(json::parse(on_facet.out)["equilibrium"] == false);
   CHECK(counts(place.run("query --stats", with("\"rho\"", "\"com_to\": [0.6, 0.4], \"rho\"") + "\n").err,
-               "modes on an interval of a line").first > 0);
+               "modes on an interval of a line")
+            .first > 0);
 }

@@ -11,8 +11,9 @@ using surefoot::tests::Workplace;
 
 namespace {
 
-const std::string level = R"({"contacts": [{"p": [0, 0], "n": [0, 1], "mu": 0.5}, {"p": [1, 0], "n": [0, 2], "mu": 0.5}], )"
-                          R"("rho": 0.2, "kappa": 0.1, "nu": 0.1})";
+const std::string level =
+    R"({"contacts": [{"p": [0, 0], "n": [0, 1], "mu": 0.5}, {"p": [1, 0], "n": [0, 2], "mu": 0.5}], )"
+    R"("rho": 0.2, "kappa": 0.1, "nu": 0.1})";
 const std::string uneven =
     R"({"contacts": [{"p": [0, 0], "n": [0.573576436351046, 0.819152044288992], "mu": 0.5}, )"
     R"({"p": [1, 0.1], "n": [-0.17364817766693, 0.984807753012208], "mu": 0.5}], "rho": 0.1, "kappa": 0.176326980708465, "nu": 0.1})";
@@ -71,7 +72,8 @@ TEST_CASE("Cells carry their modes, polygons enclose their areas, boundaries are
   CHECK(picture.find("rho = 0.1 m") != std::string::npos);
 }
 
-TEST_CASE("Scenes show their first stance or the one asked for, unbounded regions say where they are clipped", "[region]") {
+TEST_CASE("Scenes show their first stance or the one asked for, unbounded regions say where they are clipped",
+          "[region]") {
   const Workplace place;
   const std::string scene = SUREFOOT_MAPS "/vee.yaml";
   CHECK(place.run("region " + scene).out.find("legs 1, 2") != std::string::npos);
@@ -87,7 +89,8 @@ TEST_CASE("Scenes show their first stance or the one asked for, unbounded region
 
 TEST_CASE("A posture that cannot be balanced is a result, not an error", "[region]") {
   const Workplace place;
-  const auto outcome = place.run("region --posture - --json out.json --svg out.svg", replaced(level, R"("nu": 0.1)", R"("nu": 0.6)"));
+  const auto outcome =
+      place.run("region --posture - --json out.json --svg out.svg", replaced(level, R"("nu": 0.1)", R"("nu": 0.6)"));
   CHECK(outcome.status == 0);
   CHECK(outcome.out.find("no COM can be balanced") != std::string::npos);
   CHECK(json::parse(place.read("out.json"))["equilibrium_area"] == 0.0);
@@ -123,11 +126,13 @@ TEST_CASE("Improper input is refused on one line with its place", "[region]") {
   refused("--posture level.json --svg - --json -", "one of them");
 }
 
-TEST_CASE("With a restitution the regions of frictional stability are told, written and drawn", "[region][frictional]") {
+TEST_CASE("With a restitution the regions of frictional stability are told, written and drawn",
+          "[region][frictional]") {
   const Workplace place;
   // Level ground: clattering converges on a strip of known width (tests/stability/frictional_region_test.cpp).
   place.write("level.json", level);
-  const auto told = place.run("region --posture level.json --restitution 0.01 --window=-1,-1,2,1 --json out.json --svg out.svg");
+  const auto told =
+      place.run("region --posture level.json --restitution 0.01 --window=-1,-1,2,1 --json out.json --svg out.svg");
   REQUIRE(told.status == 0);
   const double theta = (std::cbrt(0.01) + std::cbrt(0.0001)) / 1.01;
   const double width = 2 * std::sqrt(0.25 - 0.04 - 0.2 * theta / std::sqrt(1 - theta * theta));
@@ -138,7 +143,8 @@ TEST_CASE("With a restitution the regions of frictional stability are told, writ
   CHECK(polygon_area(tree["clattering"]["polygons"][0]) == Approx(2 * width).epsilon(1e-2));
   CHECK(tree["stable"]["area"].get<double>() <= tree["kinematic_strong"]["area"].get<double>());
   const std::string picture = place.read("out.svg");
-  for (const char* piece : {"class=\"kinematic-strong\"", "class=\"clattering\"", "restitution e = 0.01", "url(#hatch)"})
+  for (const char* piece :
+       {"class=\"kinematic-strong\"", "class=\"clattering\"", "restitution e = 0.01", "url(#hatch)"})
     CHECK(picture.find(piece) != std::string::npos);
   // Without one nothing of it is there.
   const auto without = place.run("region --posture level.json --json -");
@@ -151,5 +157,6 @@ TEST_CASE("With a restitution the regions of frictional stability are told, writ
   CHECK(bad.err.find("--restitution: found 1, expected a number between 0 and 1") != std::string::npos);
   const auto three = place.run("region " SUREFOOT_MAPS "/vee.yaml --stance 1,2,3 --restitution 0.1");
   CHECK(three.status == 2);
-  CHECK(three.err.find("about two contacts, there are 3; expected two legs, for example --stance 1,2") != std::string::npos);
+  CHECK(three.err.find("about two contacts, there are 3; expected two legs, for example --stance 1,2") !=
+        std::string::npos);
 }

@@ -160,23 +160,26 @@ TEST_CASE("feet that start in the air and a start that leaves support and COM op
 
 TEST_CASE("a given start that is not stable is bad input, said with its numbers", "[search]") {
   // The COM lies 0.1 m outside the feet: on level ground not even gravity can be balanced.
-  const auto scene = gaits::parse_scene(
-      scene_text(level, "{feet: [{x: -0.4}, {x: 0}, {x: -0.2}], support: [1, 2], com: [0.1, 0.5]}", "{com_x: [2, 3]}"),
-      "unstable.yaml");
-  CHECK_THROWS_WITH(run(scene), Catch::StartsWith("unstable.yaml:9:8: start: not stable on feet 1 and 2: safety factor 0"));
-  const auto low = gaits::parse_scene(
-      scene_text(level, "{feet: [{x: -0.4}, {x: 0.1}, {x: -0.2}], support: [1, 2], com: [-0.15, 0.06]}",
-                 "{com_x: [2, 3]}"),
-      "low.yaml");
-  CHECK_THROWS_WITH(run(low), Catch::Contains("low.yaml:9:8: start: the COM is 0.06 m from the terrain, clearance is 0.1 m"));
+  const auto scene =
+      gaits::parse_scene(scene_text(level, "{feet: [{x: -0.4}, {x: 0}, {x: -0.2}], support: [1, 2], com: [0.1, 0.5]}",
+                                    "{com_x: [2, 3]}"),
+                         "unstable.yaml");
+  CHECK_THROWS_WITH(run(scene),
+                    Catch::StartsWith("unstable.yaml:9:8: start: not stable on feet 1 and 2: safety factor 0"));
+  const auto low =
+      gaits::parse_scene(scene_text(level,
+                                    "{feet: [{x: -0.4}, {x: 0.1}, {x: -0.2}], support: [1, 2], com: [-0.15, 0.06]}",
+                                    "{com_x: [2, 3]}"),
+                         "low.yaml");
+  CHECK_THROWS_WITH(run(low),
+                    Catch::Contains("low.yaml:9:8: start: the COM is 0.06 m from the terrain, clearance is 0.1 m"));
 }
 
 TEST_CASE("start feet that no COM balances on are bad input", "[search]") {
   // Two feet on one slope of 45 degrees with friction 0.3: they slide wherever the COM is.
-  const auto scene = gaits::parse_scene(
-      scene_text("  friction: 0.3\n  chains:\n    - vertices: [[-1, -1], [2, 2]]\n",
-                 "{feet: [{x: 0}, {x: 0.3}, null]}", "{com_x: [1, 1.5]}"),
-      "slide.yaml");
+  const auto scene = gaits::parse_scene(scene_text("  friction: 0.3\n  chains:\n    - vertices: [[-1, -1], [2, 2]]\n",
+                                                   "{feet: [{x: 0}, {x: 0.3}, null]}", "{com_x: [1, 1.5]}"),
+                                        "slide.yaml");
   CHECK_THROWS_WITH(run(scene), Catch::Contains("slide.yaml:9:8: start: no COM within reach of feet 1 and 2"));
 }
 
@@ -185,8 +188,9 @@ TEST_CASE("start feet that one COM alone can reach are not called bad input", "[
   const std::string slopes =
       "  friction: 2\n  chains:\n"
       "    - vertices: [[-1, 1], [0.25, -0.25], [0.25, -2], [1.55, -2], [1.55, -0.25], [2.8, 1]]\n";
-  const auto given = gaits::parse_scene(
-      scene_text(slopes, "{feet: [{x: 0}, {x: 1.8}, null], com: [0.9, 0]}", "{com_x: [1.5, 2]}"), "slopes");
+  const auto given =
+      gaits::parse_scene(scene_text(slopes, "{feet: [{x: 0}, {x: 1.8}, null], com: [0.9, 0]}", "{com_x: [1.5, 2]}"),
+                         "slopes");
   planner::StepProposals proposals(given);
   REQUIRE(planner::choose_start(proposals).nodes.size() == 1);
   const auto open =
@@ -211,17 +215,18 @@ TEST_CASE("that a goal cannot be stood on is proven", "[search]") {
     CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 8 and 9: "));
   }
   SECTION("ground too steep to stand on: proven") {
-    const auto plan = run(gaits::parse_scene(
-        scene_text("  friction: 0.4\n  chains:\n    - vertices: [[-1, 0], [1, 0], [6, 5]]\n", three_feet,
-                   "{com_x: [4, 4.2]}"),
-        "steep"));
+    const auto plan =
+        run(gaits::parse_scene(scene_text("  friction: 0.4\n  chains:\n    - vertices: [[-1, 0], [1, 0], [6, 5]]\n",
+                                          three_feet, "{com_x: [4, 4.2]}"),
+                               "steep"));
     CHECK(plan.status == gaits::Status::infeasible);
     CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 4 and 4.2: "));
     CHECK(plan.stances.empty());
   }
 }
 
-TEST_CASE("a goal beyond a gap wider than two legs is not found: what was refused is counted, and then it is proven", "[search]") {
+TEST_CASE("a goal beyond a gap wider than two legs is not found: what was refused is counted, and then it is proven",
+          "[search]") {
   const auto scene = gaits::parse_scene(
       scene_text("  friction: 0.6\n  chains:\n    - vertices: [[-1, 0], [0.8, 0]]\n    - vertices: [[3, 0], [5, 0]]\n",
                  three_feet, "{com_x: [4, 4.2]}"),

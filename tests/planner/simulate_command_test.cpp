@@ -104,12 +104,14 @@ TEST_CASE("Improper input to simulate ends with one line and status 2", "[simula
 
 TEST_CASE("Two start feet of a scene are simulated like the posture they make", "[simulate]") {
   const Workplace place;
-  const std::string scene = "simulate --scene " SUREFOOT_MAPS "/vee.yaml --stance 1,3 --com=-0.35,0.1 --q 0,2e-4,1e-4 --json -";
+  const std::string scene =
+      "simulate --scene " SUREFOOT_MAPS "/vee.yaml --stance 1,3 --com=-0.35,0.1 --q 0,2e-4,1e-4 --json -";
   const auto from_scene = place.run(scene + " --restitution 0.05");
   REQUIRE(from_scene.status == 0);
   // maps/vee.yaml: level start, friction 0.8, feet at -0.5 and -0.2, rho 0.2.
-  place.write("same.json", R"({"contacts": [{"p": [-0.5, 0], "n": [0, 1], "mu": 0.8}, {"p": [-0.2, 0], "n": [0, 1], "mu": 0.8}], )"
-                           R"("rho": 0.2, "com": [-0.35, 0.1], "restitution": 0.05})");
+  place.write("same.json",
+              R"({"contacts": [{"p": [-0.5, 0], "n": [0, 1], "mu": 0.8}, {"p": [-0.2, 0], "n": [0, 1], "mu": 0.8}], )"
+              R"("rho": 0.2, "com": [-0.35, 0.1], "restitution": 0.05})");
   const auto posture = place.run("simulate same.json --q 0,2e-4,1e-4 --json -");
   REQUIRE(posture.status == 0);
   json one = json::parse(from_scene.out), other = json::parse(posture.out);
@@ -122,7 +124,8 @@ TEST_CASE("Two start feet of a scene are simulated like the posture they make", 
   const auto both = place.run("simulate same.json --scene " SUREFOOT_MAPS "/vee.yaml");
   CHECK(both.status == 2);
   CHECK(both.err.find("expected one of them") != std::string::npos);
-  const auto three = place.run("simulate --scene " SUREFOOT_MAPS "/vee.yaml --stance 1,2,3 --restitution 0.1 --com 0,0.5");
+  const auto three =
+      place.run("simulate --scene " SUREFOOT_MAPS "/vee.yaml --stance 1,2,3 --restitution 0.1 --com 0,0.5");
   CHECK(three.status == 2);
   CHECK(place.run("simulate same.json --stance 1,2").status == 2);
 }

@@ -31,7 +31,8 @@ std::string swap_slides(std::string mode) {
   return mode;
 }
 
-std::vector<std::string> renamed(std::vector<std::string> modes, const std::function<std::string(std::string)>& rename) {
+std::vector<std::string> renamed(std::vector<std::string> modes,
+                                 const std::function<std::string(std::string)>& rename) {
   for (std::string& mode : modes) mode = rename(mode);
   return sorted(modes);
 }

@@ -48,9 +48,8 @@ TEST_CASE("The half-planes and the polygon of R_SS(W) hold exactly the points in
         const double sigma = reference.equilibrium_factor(x).value;
         const bool expected = reference.equilibrium(x);
         if (std::abs(sigma - 1) < 1e-9 || (sigma > 0 && sigma < 1e-9)) continue;
-        const bool in_all = std::all_of(half_planes.begin(), half_planes.end(), [&](const HalfPlane& half) {
-          return half.normal.dot(x) + half.offset > 0;
-        });
+        const bool in_all = std::all_of(half_planes.begin(), half_planes.end(),
+                                        [&](const HalfPlane& half) { return half.normal.dot(x) + half.offset > 0; });
         if (reference.structure().full_rank) CHECK(in_all == expected);
         if (depth(window, x) > 1e-9 && std::abs(depth(polygon, x)) > 1e-9) CHECK((depth(polygon, x) > 0) == expected);
         expected ? ++inside : ++outside;

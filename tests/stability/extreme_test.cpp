@@ -177,9 +177,10 @@ TEST_CASE("A cone without interior supports nothing, a whole-space cone everythi
   CHECK(oracle_of(sample).line_equilibrium(sample.com, {-30, 50}));
 }
 
-TEST_CASE("Two slides loaded along one line through the COM's percussion axis are not taken for possible", "[degenerate]") {
-  // The loaded edges (2, 1) at the first foot and (1, 1/2) at the second lie on one line, so D = 0 wherever the COM is, and
-  // at this COM M c is parallel to that line too: the slide needs a wrench along it, p = 2, which W does not hold.
+TEST_CASE("Two slides loaded along one line through the COM's percussion axis are not taken for possible",
+          "[degenerate]") {
+  // The loaded edges (2, 1) at the first foot and (1, 1/2) at the second lie on one line, so D = 0 wherever the COM is,
+  // and at this COM M c is parallel to that line too: the slide needs a wrench along it, p = 2, which W does not hold.
   const std::vector<surefoot::stability::Contact> contacts{{{0.25, 0.6875}, {0, 1}, 2}, {{-0.875, 0.125}, {1, 0}, 0.5}};
   const Eigen::Vector2d com(0.125, 0.375), from_com(contacts[0].position - com);
   const double rho = 0.25;

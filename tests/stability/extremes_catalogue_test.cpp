@@ -98,7 +98,8 @@ TEST_CASE("Lengths times powers of two change neither verdict nor factor", "[ext
       const RobustOracle other = oracle_of(scaled);
       CHECK(other.robust(scaled.com) == oracle.robust(example.sample.com));
       CHECK(mode_names(other.feasible_modes(scaled.com)) == mode_names(oracle.feasible_modes(example.sample.com)));
-      const double expected = oracle.safety_factor(example.sample.com).value, found = other.safety_factor(scaled.com).value;
+      const double expected = oracle.safety_factor(example.sample.com).value,
+                   found = other.safety_factor(scaled.com).value;
       CHECK((found == expected || std::abs(found - expected) <= 2 * stated_factor_error * expected));
     }
   }
@@ -112,7 +113,8 @@ TEST_CASE("No line of the catalogue has a factor above 1 that is not certified s
     INFO(described(example));
     const RobustOracle oracle = oracle_of(example.sample);
     const Eigen::Vector2d& from = example.sample.com;
-    const Eigen::Vector2d to = 0.75 * from + 0.25 * (example.sample.contacts[0].position + example.sample.contacts[1].position) / 2;
+    const Eigen::Vector2d to =
+        0.75 * from + 0.25 * (example.sample.contacts[0].position + example.sample.contacts[1].position) / 2;
     const LineSafetyFactor least = oracle.line_safety_factor(from, to);
     const bool certified = oracle.line(from, to).stable();
     CHECK_FALSE(std::isnan(least.least.value));

@@ -179,7 +179,8 @@ TEST_CASE("Areas are those of a grid of brute-force verdicts", "[frictional][reg
   CHECK(region.stable.area == Approx(both * area).margin(2e-3));
 }
 
-TEST_CASE("Ground that does not face upward, and postures without equilibrium, have no region", "[frictional][region]") {
+TEST_CASE("Ground that does not face upward, and postures without equilibrium, have no region",
+          "[frictional][region]") {
   std::vector<Contact> contacts{{{-0.5, 0}, {1, 0}, 0.8}, {{0.5, 0}, {-1, 0}, 0.8}};  // walls
   const FrictionalRegion walls = frictional_region(contacts, 0.2, 0.05, within(2, 2));
   CHECK_FALSE(walls.upward);

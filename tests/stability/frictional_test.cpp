@@ -14,11 +14,11 @@
 #include "tests/support/sample_posture.hpp"
 
 using namespace surefoot::stability;
+using Eigen::Vector2d;
 using surefoot::test::enough;
 using surefoot::test::rounds;
-using surefoot::testing::Sampler;
 using surefoot::testing::SamplePosture;
-using Eigen::Vector2d;
+using surefoot::testing::Sampler;
 
 namespace {
 
@@ -32,8 +32,7 @@ std::array<double, 2> printed_psi(const std::vector<Contact>& contacts, const Ve
     n[i] = contacts[i].normal.normalized();
     b[i] = Vector2d(n[i].y(), -n[i].x()).dot(contacts[i].position - com);
   }
-  for (int i : {0, 1})
-    result[i] = -(b[0] * b[1] + n[0].dot(n[1]) * rho * rho) / (b[i] * b[i] + rho * rho);
+  for (int i : {0, 1}) result[i] = -(b[0] * b[1] + n[0].dot(n[1]) * rho * rho) / (b[i] * b[i] + rho * rho);
   return result;
 }
 

@@ -258,9 +258,10 @@ TEST_CASE("Every push within the guarantee of Theorem 3 ends at rest near the st
     constexpr double size = 1e-7;
     HybridOptions options;
     options.restitution = e, options.neighbourhood = 1e-2;
-    const BodyState start = body.state_at_heights(
-        {sampler.uniform(0, size), sampler.uniform(0, size), sampler.uniform(-size, size)},
-        {sampler.uniform(-size, size), sampler.uniform(-size, size), sampler.uniform(-size, size)});
+    const BodyState start =
+        body.state_at_heights({sampler.uniform(0, size), sampler.uniform(0, size), sampler.uniform(-size, size)},
+                              {sampler.uniform(-size, size), sampler.uniform(-size, size),
+                               sampler.uniform(-size, size)});
     const HybridRun run = simulate(body, start, options);
     INFO("round " << k);
     CHECK(run.outcome == HybridRun::Outcome::rest);

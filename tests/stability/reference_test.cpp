@@ -49,7 +49,8 @@ TEST_CASE("On level ground both references give tipping and sliding limits compu
   }
 }
 
-TEST_CASE("Pushed beyond its friction a body on level ground slides at both feet and does nothing else", "[reference]") {
+TEST_CASE("Pushed beyond its friction a body on level ground slides at both feet and does nothing else",
+          "[reference]") {
   // p = f_x / f_y with f_y = -1: p < -mu is a push to the right. kappa = 0.6, mu = 0.5; both directions occur.
   const SamplePosture sample = posture(level, {0.5, 0.1}, 0.5, {0.6, 0});
   const std::vector<std::string> expected{"UU", "WW"};

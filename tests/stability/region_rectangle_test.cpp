@@ -17,7 +17,8 @@ namespace {
 
 double magnitude_of(const CurvePolynomial& curve) {
   double sum = 0;
-  for (int k = 0; k < (curve.degree + 1) * (curve.degree + 2) / 2; ++k) sum += std::abs(curve.f.c[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < (curve.degree + 1) * (curve.degree + 2) / 2; ++k)
+    sum += std::abs(curve.f.c[static_cast<std::size_t>(k)]);
   return sum;
 }
 
@@ -41,8 +42,8 @@ struct Counts {
   int checked = 0, by_curves = 0, several_curves = 0, beside_denominator = 0, narrowed = 0;
 };
 
-void check_rectangle(const SamplePosture& sample, const RegionModes& modes, const RobustOracle& oracle, const Rectangle& box,
-                     std::mt19937& random, Counts& counts) {
+void check_rectangle(const SamplePosture& sample, const RegionModes& modes, const RobustOracle& oracle,
+                     const Rectangle& box, std::mt19937& random, Counts& counts) {
   std::vector<LeafMode> there;
   for (int k = 0; k < static_cast<int>(modes.modes().size()); ++k) {
     there.push_back({k, mode_there(modes, k, box)});
@@ -55,7 +56,7 @@ void check_rectangle(const SamplePosture& sample, const RegionModes& modes, cons
   for (int point = 0; point < 4; ++point) {
     const double s = box.a + (box.b - box.a) * share(random), t = box.lo + (box.hi - box.lo) * share(random);
     const std::vector<ContactMode> feasible = oracle.feasible_modes(modes.position(s, t));
-    const Rectangle part{box.a, s, box.lo, t};  // the point is its corner
+    const Rectangle part{box.a, s, box.lo, t};   // the point is its corner
     std::map<std::string, ModePart::Kind> said;  // a mode may stand several times, for each sense of its motion
     for (const LeafMode& mode : there) {
       ModePart::Kind kind = said_at(modes, mode, box, s, t);
@@ -68,14 +69,13 @@ void check_rectangle(const SamplePosture& sample, const RegionModes& modes, cons
       }
       const auto [at, first] = said.try_emplace(modes.modes()[static_cast<std::size_t>(mode.mode)].mode.name(), kind);
       if (first) continue;
-      if (kind == ModePart::everywhere || at->second == ModePart::everywhere)
-        at->second = ModePart::everywhere;
-      else if (kind != at->second)
-        at->second = ModePart::unknown;
+      if (kind == ModePart::everywhere || at->second == ModePart::everywhere) at->second = ModePart::everywhere;
+      else if (kind != at->second) at->second = ModePart::unknown;
     }
     for (const auto& [name, kind] : said) {
       if (kind == ModePart::unknown) continue;
-      const bool possible = std::any_of(feasible.begin(), feasible.end(), [&](const ContactMode& m) { return m.name() == name; });
+      const bool possible =
+          std::any_of(feasible.begin(), feasible.end(), [&](const ContactMode& m) { return m.name() == name; });
       INFO(sample.json() << " at " << modes.position(s, t).transpose() << ": " << name);
       CHECK(possible == (kind == ModePart::everywhere));
       ++counts.checked;
@@ -94,13 +94,16 @@ TEST_CASE("What certificates say of a rectangle, the oracle says at its points",
   for (int round = 0; round < postures; ++round) {
     const SamplePosture sample = sampler.posture(all_kinds[static_cast<std::size_t>(round) % all_kinds.size()]);
     // Without friction and sideways force rows of sliding vanish by cancellation; in doubles their sign is open.
-    const bool no_friction = std::any_of(sample.contacts.begin(), sample.contacts.end(), [](const Contact& c) { return c.friction == 0; });
+    const bool no_friction =
+        std::any_of(sample.contacts.begin(), sample.contacts.end(), [](const Contact& c) { return c.friction == 0; });
     if (no_friction && sample.box.kappa == 0) continue;
     const RobustOracle oracle(sample.contacts, sample.rho, sample.box);
     const Posture posture(sample.contacts, sample.rho);
-    const RegionModes modes(posture, {{}, sample.box.kappa, sample.box.nu}, sample.com, Vector2d(std::cos(0.3), std::sin(0.3)));
+    const RegionModes modes(posture, {{}, sample.box.kappa, sample.box.nu}, sample.com,
+                            Vector2d(std::cos(0.3), std::sin(0.3)));
     for (int k = 0; k < 4; ++k) {
-      const double size = sample.rho * std::pow(10, -1.5 + 1.5 * unit(random)), s = sample.rho * unit(random), t = sample.rho * unit(random);
+      const double size = sample.rho * std::pow(10, -1.5 + 1.5 * unit(random)), s = sample.rho * unit(random),
+                   t = sample.rho * unit(random);
       check_rectangle(sample, modes, oracle, {s - size, s + size, t - 0.7 * size, t + 0.7 * size}, random, counts);
     }
   }

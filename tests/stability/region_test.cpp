@@ -16,13 +16,13 @@
 #include "tests/support/sample_posture.hpp"
 
 using namespace surefoot::stability;
+using Eigen::AlignedBox2d;
+using Eigen::Vector2d;
 using surefoot::testing::all_kinds;
 using surefoot::testing::reference_area;
 using surefoot::testing::ReferenceArea;
 using surefoot::testing::SamplePosture;
 using surefoot::testing::Sampler;
-using Eigen::AlignedBox2d;
-using Eigen::Vector2d;
 
 namespace {
 
@@ -54,14 +54,18 @@ GridArea by_grid(const RobustOracle& oracle, const AlignedBox2d& box, int n) {
   std::vector<char> inside(static_cast<std::size_t>((n + 1) * (n + 1)));
   for (int i = 0; i <= n; ++i)
     for (int k = 0; k <= n; ++k)
-      inside[static_cast<std::size_t>(i * (n + 1) + k)] = oracle.robust(box.min() + Vector2d(step.x() * i, step.y() * k));
+      inside[static_cast<std::size_t>(i * (n + 1) + k)] =
+          oracle.robust(box.min() + Vector2d(step.x() * i, step.y() * k));
   GridArea area;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < n; ++k) {
-      const auto at = [&](int a, int b) { return static_cast<int>(inside[static_cast<std::size_t>((i + a) * (n + 1) + k + b)]); };
+      const auto at = [&](int a, int b) {
+        return static_cast<int>(inside[static_cast<std::size_t>((i + a) * (n + 1) + k + b)]);
+      };
       const int corners = at(0, 0) + at(0, 1) + at(1, 0) + at(1, 1);
       area.robust += corners / 4.0;
-      area.error += corners % 4 != 0 ? 0.5 : 0;  // of cells the boundary crosses half their area on average: 1/2 bounds their sum
+      area.error +=
+          corners % 4 != 0 ? 0.5 : 0;  // of cells the boundary crosses half their area on average: 1/2 bounds their sum
     }
   area.robust *= step.prod();
   area.error = (area.error + 2) * step.prod();  // what slips between the points of a grid this fine
@@ -173,7 +177,8 @@ TEST_CASE("Every boundary curve separates verdicts of the oracle on its mode", "
     for (std::size_t k = 0; k + 1 < boundary.polyline.size(); ++k) {
       const Vector2d d = boundary.polyline[k + 1] - boundary.polyline[k];
       if (d.norm() < 20 * r.curve_tolerance) continue;
-      const Vector2d side = 3 * r.curve_tolerance * Vector2d(-d.y(), d.x()).normalized(), middle = boundary.polyline[k] + 0.5 * d;
+      const Vector2d side = 3 * r.curve_tolerance * Vector2d(-d.y(), d.x()).normalized(),
+                     middle = boundary.polyline[k] + 0.5 * d;
       INFO(boundary.label << " at " << middle.transpose());
       CHECK(has(middle + side) != has(middle - side));
     }
@@ -207,8 +212,8 @@ TEST_CASE("The stated error of an area holds against integrals of the oracle's v
       const Region r = region(contacts, rho, published);
       CHECK(areas.error <= 1.1e-6 * areas.equilibrium);
       CHECK(areas.equilibrium == r.equilibrium_area);
-      const ReferenceArea reference =
-          reference_area(RobustOracle(contacts, rho, {published.kappa, published.nu}), r.equilibrium, 1e-6 * areas.equilibrium);
+      const ReferenceArea reference = reference_area(RobustOracle(contacts, rho, {published.kappa, published.nu}),
+                                                     r.equilibrium, 1e-6 * areas.equilibrium);
       const double own = 2 * reference.error;
       CHECK(std::abs(areas.robust - reference.area) <= areas.error + own);
       CHECK(std::abs(r.robust_area - reference.area) <= r.area_error + own);
@@ -246,19 +251,33 @@ TEST_CASE("Stiff and extreme postures: a region within the grid's error, or a st
   const std::vector<std::function<void(SamplePosture&)>> rules{
       [](SamplePosture& s) { s.box.kappa = 0; },
       [](SamplePosture& s) { s.box.nu = 0; },
-      [](SamplePosture& s) { s.box = {0, 0}; },
-      [](SamplePosture& s) { s.box = {1e-12, 1e-12}; },
-      [](SamplePosture& s) { s.box = {10, 10}; },
+      [](SamplePosture& s) {
+        s.box = {0, 0};
+      },
+      [](SamplePosture& s) {
+        s.box = {1e-12, 1e-12};
+      },
+      [](SamplePosture& s) {
+        s.box = {10, 10};
+      },
       [](SamplePosture& s) { s.rho *= 1e-4; },
       [](SamplePosture& s) { s.rho *= 1e6; },
       [](SamplePosture& s) { s.rho = 1e-308; },
-      [](SamplePosture& s) { for (Contact& c : s.contacts) c.friction = 1e-12; },
-      [](SamplePosture& s) { for (Contact& c : s.contacts) c.friction = 1e9; },
+      [](SamplePosture& s) {
+        for (Contact& c : s.contacts) c.friction = 1e-12;
+      },
+      [](SamplePosture& s) {
+        for (Contact& c : s.contacts) c.friction = 1e9;
+      },
       [](SamplePosture& s) { s.contacts.back().position = s.contacts[0].position + Vector2d(1e-300, 0); },
       [](SamplePosture& s) { s.contacts.back().normal = s.contacts[0].normal * 3; },
       [](SamplePosture& s) { s.contacts.back().normal = -s.contacts[0].normal; },
-      [](SamplePosture& s) { for (Contact& c : s.contacts) c.position *= 0x1p40; },
-      [](SamplePosture& s) { for (Contact& c : s.contacts) c.position += Vector2d(1e9, -1e9); },
+      [](SamplePosture& s) {
+        for (Contact& c : s.contacts) c.position *= 0x1p40;
+      },
+      [](SamplePosture& s) {
+        for (Contact& c : s.contacts) c.position += Vector2d(1e9, -1e9);
+      },
   };
   Sampler sampler(46);
   int regions = 0, statements = 0;
@@ -281,7 +300,8 @@ TEST_CASE("Stiff and extreme postures: a region within the grid's error, or a st
     const Region r = region(s.contacts, s.rho, {{}, s.box.kappa, s.box.nu}, options);
     for (const RegionCell& cell : r.cells)
       if (cell.confirmed) CHECK(oracle.robust(cell.inside) == cell.modes.empty());
-    CHECK(cells_total(r) == Approx(r.equilibrium_area).margin(r.cells_error + r.area_error + 1e-9 * r.equilibrium_area));
+    CHECK(cells_total(r) ==
+          Approx(r.equilibrium_area).margin(r.cells_error + r.area_error + 1e-9 * r.equilibrium_area));
     const GridArea grid = by_grid(oracle, bounds_of(r.equilibrium), 24);
     CHECK(std::abs(grid.robust - areas.robust) <= grid.error + areas.error);
   }
@@ -289,7 +309,8 @@ TEST_CASE("Stiff and extreme postures: a region within the grid's error, or a st
   CHECK(statements > 0);
 }
 
-TEST_CASE("One wrench is a box without extent: R(w) under gravity, and under a slanted force by turning the posture", "[region]") {
+TEST_CASE("One wrench is a box without extent: R(w) under gravity, and under a slanted force by turning the posture",
+          "[region]") {
   // Turning everything by phi turns gravity: the force (p, 1) with p = tan(phi) on the posture is plain gravity on the
   // turned one, and areas do not change. The window of the slanted one is large enough to hold the strip's part we
   // compare: three contacts in a bowl.
@@ -331,14 +352,14 @@ TEST_CASE("Degenerate and extreme postures give a region or a statement", "[regi
     CHECK(r.robust_area <= r.equilibrium_area + r.area_error + 1e-9 * r.equilibrium_area);
     return r;
   };
-  survives({{{0, 0}, {0, 1}, 0.5}, {{0, 0}, {0, 1}, 0.5}}, 0.1, published);                          // one place twice
-  survives({{{0, 0}, {0, 1}, 0.5}, {{1e-9, 0}, {0, 1}, 0.5}}, 0.1, published);                       // almost
-  survives({{{0, 0}, {0, 1}, 0}, {{1, 0}, {0, 1}, 0}}, 0.1, published);                              // no friction
-  survives({{{0, 0}, {0, 1}, 1e-6}, {{1, 0}, {0, 1}, 1e-6}}, 0.1, {{}, 1e-7, 1e-7});                 // hardly any
-  survives({{{0, 0}, {1, 0}, 1}, {{1, 0}, {-1, 0}, 1}}, 0.1, published);                             // two walls
-  survives({{{0, 0}, {0, 1}, 1}, {{0, 1}, {0, -1}, 1}}, 0.1, published);                             // floor and ceiling
+  survives({{{0, 0}, {0, 1}, 0.5}, {{0, 0}, {0, 1}, 0.5}}, 0.1, published);           // one place twice
+  survives({{{0, 0}, {0, 1}, 0.5}, {{1e-9, 0}, {0, 1}, 0.5}}, 0.1, published);        // almost
+  survives({{{0, 0}, {0, 1}, 0}, {{1, 0}, {0, 1}, 0}}, 0.1, published);               // no friction
+  survives({{{0, 0}, {0, 1}, 1e-6}, {{1, 0}, {0, 1}, 1e-6}}, 0.1, {{}, 1e-7, 1e-7});  // hardly any
+  survives({{{0, 0}, {1, 0}, 1}, {{1, 0}, {-1, 0}, 1}}, 0.1, published);              // two walls
+  survives({{{0, 0}, {0, 1}, 1}, {{0, 1}, {0, -1}, 1}}, 0.1, published);              // floor and ceiling
   survives({{{0, 0}, {0, 1}, 0.5}, {{0.5, 0}, {0, 1}, 0.5}, {{1, 0}, {0, 1}, 0.5}}, 0.01, published);  // three in a row
-  survives({{{0, 0}, {0, 1}, 0.5}}, 0.1, published);                                                 // one contact
+  survives({{{0, 0}, {0, 1}, 0.5}}, 0.1, published);                                                   // one contact
   const Region plain = survives(uneven(), 0.1, published);
   for (const double scale : {1e-6, 1e6}) {
     std::vector<Contact> scaled = uneven();
@@ -365,7 +386,8 @@ TEST_CASE("Half-planes of R_SS(W) are those of the oracle", "[region]") {
   }
 }
 
-TEST_CASE("The disc around a COM is robust all over, and is the largest where only tipping limits it", "[region][tolerance]") {
+TEST_CASE("The disc around a COM is robust all over, and is the largest where only tipping limits it",
+          "[region][tolerance]") {
   Sampler sampler(44);
   int discs = 0, sharp = 0;
   for (int round = 0; round < surefoot::test::rounds(400); ++round) {

@@ -33,8 +33,7 @@ struct Local {
   Pair<S> r, n, t, cu, cw;
   Local(const Contact& contact, const Eigen::Vector2d& com)
       : r{S(S(contact.position.x()) - S(com.x())), S(S(contact.position.y()) - S(com.y()))},
-        n{S(contact.normal.x()), S(contact.normal.y())},
-        t{n[1], S(-n[0])} {
+        n{S(contact.normal.x()), S(contact.normal.y())}, t{n[1], S(-n[0])} {
     const S mu(contact.friction);
     for (int k = 0; k < 2; ++k) cu[k] = S(n[k] + mu * t[k]), cw[k] = S(n[k] - mu * t[k]);
   }
@@ -87,8 +86,7 @@ S slack(const Row<S>& row, const Point<S>& point) {
 // positive at some vertex of the result (then it is positive at the mean of the vertices).
 template <class S>
 bool strictly_feasible(const Rows<S>& rows, const S& p_max, const S& q_max) {
-  std::vector<Point<S>> polygon{
-      {S(-p_max), S(-q_max)}, {p_max, S(-q_max)}, {p_max, q_max}, {S(-p_max), q_max}};
+  std::vector<Point<S>> polygon{{S(-p_max), S(-q_max)}, {p_max, S(-q_max)}, {p_max, q_max}, {S(-p_max), q_max}};
   for (const Row<S>& row : rows) {
     std::vector<Point<S>> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -104,7 +102,8 @@ bool strictly_feasible(const Rows<S>& rows, const S& p_max, const S& q_max) {
     if (polygon.empty()) return false;
   }
   return std::all_of(rows.begin(), rows.end(), [&](const Row<S>& row) {
-    return std::any_of(polygon.begin(), polygon.end(), [&](const Point<S>& v) { return value_at(row, v) > slack(row, v); });
+    return std::any_of(polygon.begin(), polygon.end(),
+                       [&](const Point<S>& v) { return value_at(row, v) > slack(row, v); });
   });
 }
 
@@ -236,7 +235,7 @@ Rows<S> DirectReference<S>::facet_rows(const Eigen::Vector2d& com) const {
 // Unknowns: a_x, a_y, alpha, then the force of every contact that does not break. Right-hand sides: w = -(p, 1, q).
 template <class S>
 std::optional<std::pair<Rows<S>, std::vector<int>>> DirectReference<S>::all_rows(const Eigen::Vector2d& com,
-                                                                               const ContactMode& mode) const {
+                                                                                 const ContactMode& mode) const {
   std::vector<Local<S>> local;
   std::vector<int> force_at(mode.contacts, -1);
   int unknowns = 3;
@@ -321,8 +320,9 @@ template <class S>
 bool DirectReference<S>::equilibrium_at(const Eigen::Vector2d& com, const Wrench& wrench) const {
   if (!structure_.full_rank) return false;
   const Rows<S> rows = facet_rows(com);
-  return std::all_of(rows.begin(), rows.end(),
-                     [&](const Row<S>& row) { return value_at(row, {S(wrench.p), S(wrench.q)}) > 0; });
+  return std::all_of(rows.begin(), rows.end(), [&](const Row<S>& row) {
+    return value_at(row, {S(wrench.p), S(wrench.q)}) > 0;
+  });
 }
 
 template <class S>
@@ -343,7 +343,7 @@ bool DirectReference<S>::mode_feasible(const Eigen::Vector2d& com, const ModeStr
 
 template <class S>
 bool DirectReference<S>::mode_feasible_at(const Eigen::Vector2d& com, const ModeStructure& mode,
-                                        const Wrench& wrench) const {
+                                          const Wrench& wrench) const {
   const auto rows = mode_rows(com, mode);
   return rows && std::all_of(rows->begin(), rows->end(), [&](const Row<S>& row) {
            return value_at(row, {S(wrench.p), S(wrench.q)}) > 0;

@@ -27,9 +27,9 @@ using Rows = std::vector<Row<S>>;
 
 struct ModeStructure {
   ContactMode mode;
-  bool exists = true;    ///< false: two slides whose normals lie on one line (c = 0)
-  bool kinematic = true; ///< false: two slides whose directions no twist can have; the LP is left to find that out
-  unsigned dropped = 0;  ///< bit i: the kinematic row of contact i vanishes identically
+  bool exists = true;     ///< false: two slides whose normals lie on one line (c = 0)
+  bool kinematic = true;  ///< false: two slides whose directions no twist can have; the LP is left to find that out
+  unsigned dropped = 0;   ///< bit i: the kinematic row of contact i vanishes identically
 };
 
 struct FacetPair {
@@ -71,7 +71,8 @@ class DirectReference {
   Rows<S> facet_rows(const Eigen::Vector2d& com) const;
   std::optional<Rows<S>> mode_rows(const Eigen::Vector2d& com, const ModeStructure& mode) const;
   /// Undropped rows; with the third entry the index of the contact for kinematic rows, -1 for force rows.
-  std::optional<std::pair<Rows<S>, std::vector<int>>> all_rows(const Eigen::Vector2d& com, const ContactMode& mode) const;
+  std::optional<std::pair<Rows<S>, std::vector<int>>> all_rows(const Eigen::Vector2d& com,
+                                                               const ContactMode& mode) const;
 
  private:
   SamplePosture sample_;

@@ -335,15 +335,11 @@ PointFamily point_family(PointKind kind, Sampler& sampler) {
     }
     case PointKind::facet:
     case PointKind::mode:
-    case PointKind::denominator:
-      return at_boundary(kind, sampler);
+    case PointKind::denominator: return at_boundary(kind, sampler);
     case PointKind::painleve:
-    case PointKind::both_zero:
-      return at_zero_denominator(kind, sampler);
-    case PointKind::grid:
-      return on_grid(sampler);
-    case PointKind::nearly:
-      return nearly_coincident(sampler);
+    case PointKind::both_zero: return at_zero_denominator(kind, sampler);
+    case PointKind::grid: return on_grid(sampler);
+    case PointKind::nearly: return nearly_coincident(sampler);
   }
   return {};
 }
@@ -356,14 +352,10 @@ LineFamily line_family(LineKind kind, Sampler& sampler) {
       return family;
     }
     case LineKind::stable_ends:
-    case LineKind::slender:
-      return between_robust(kind, sampler);
-    case LineKind::tangential:
-      return touching(sampler);
-    case LineKind::grid:
-      return grid_lines(sampler);
-    case LineKind::painleve:
-      return through_zero_denominator(sampler);
+    case LineKind::slender: return between_robust(kind, sampler);
+    case LineKind::tangential: return touching(sampler);
+    case LineKind::grid: return grid_lines(sampler);
+    case LineKind::painleve: return through_zero_denominator(sampler);
   }
   return {};
 }

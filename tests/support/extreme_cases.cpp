@@ -98,7 +98,8 @@ double moved_by_ulps(double value, int ulps) {
 void scales_and_shifts(Catalogue& all) {
   all.group("lengths times a power of two");
   for (const int exponent : {-30, -20, -10, 10, 20, 30})
-    all.vary("lengths x 2^" + std::to_string(exponent), 2, [&](SamplePosture& s) { scale(s, std::ldexp(1.0, exponent)); });
+    all.vary("lengths x 2^" + std::to_string(exponent), 2,
+             [&](SamplePosture& s) { scale(s, std::ldexp(1.0, exponent)); });
   all.group("lengths times 1e-9 ... 1e9");
   for (const double factor : {1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9})
     all.vary("lengths x " + text(factor), 2, [&](SamplePosture& s) { scale(s, factor); });
@@ -149,9 +150,8 @@ void near_contacts(Catalogue& all) {
       s.rho = std::max(distance, 1e-9);
       s.box.nu = 0.1 * distance;
     });
-    all.vary("third " + text(distance) + " from the first", 2, [&](SamplePosture& s) {
-      s.contacts.back().position = s.contacts[0].position + Vector2d(distance, 0);
-    });
+    all.vary("third " + text(distance) + " from the first", 2,
+             [&](SamplePosture& s) { s.contacts.back().position = s.contacts[0].position + Vector2d(distance, 0); });
   }
 }
 
@@ -236,7 +236,8 @@ void beside_boundaries(Catalogue& all, const std::string& label, std::size_t str
         const double found = sample.com[axis];
         for (const int ulps : {-4, -2, -1, 0, 1, 2, 4}) {
           sample.com[axis] = moved_by_ulps(found, ulps);
-          all.add(all.bases()[k].name + ", " + label + (axis == 0 ? ", x " : ", y ") + std::to_string(ulps) + " ulp", sample);
+          all.add(all.bases()[k].name + ", " + label + (axis == 0 ? ", x " : ", y ") + std::to_string(ulps) + " ulp",
+                  sample);
         }
       }
     }

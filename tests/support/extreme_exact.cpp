@@ -151,7 +151,8 @@ ExactFactor exact_safety_factor(const SamplePosture& sample) {
   for (const Pair& pair : pairs)
     consider(facet_scale(frame, pair), [pair](const ExactFrame& at) { return facet_scale(at, pair); });
   for (const ExactMode& mode : posture.modes())
-    consider(mode_scale(frame, mode, least), [&mode](const ExactFrame& at) { return mode_scale(at, mode, std::nullopt); });
+    consider(mode_scale(frame, mode, least),
+             [&mode](const ExactFrame& at) { return mode_scale(at, mode, std::nullopt); });
   factor.value = least;
   if (!least || *least == 0) return factor;
   int unit = -200;
@@ -178,7 +179,8 @@ ExactFactor exact_safety_factor(const SamplePosture& sample) {
     }
     const Quotient forward = (*at[1] - *least) / step, backward = (*least - *at[0]) / step;
     factor.gradient[axis] = (forward + backward) / 2;
-    if (absolute(forward - backward) > (absolute(forward) + absolute(backward)) / (Integer(1) << 40)) factor.kink = true;
+    if (absolute(forward - backward) > (absolute(forward) + absolute(backward)) / (Integer(1) << 40))
+      factor.kink = true;
   }
   return factor;
 }

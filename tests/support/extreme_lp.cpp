@@ -70,7 +70,8 @@ class Program {
     }
     glp_add_rows(problem, static_cast<int>(rows_.size()));
     for (std::size_t k = 0; k < rows_.size(); ++k)
-      glp_set_row_bnds(problem, static_cast<int>(k) + 1, rows_[k].equality ? GLP_FX : GLP_LO, rows_[k].value, rows_[k].value);
+      glp_set_row_bnds(problem, static_cast<int>(k) + 1, rows_[k].equality ? GLP_FX : GLP_LO, rows_[k].value,
+                       rows_[k].value);
     glp_load_matrix(problem, count, i, j, a);
     glp_set_obj_dir(problem, GLP_MAX);
     glp_set_obj_coef(problem, objective, 1);
@@ -115,7 +116,8 @@ struct Tolerances {
 /// (p, 1, q) = sum lambda_k ray_k with lambda_k >= t.
 bool balances(const std::vector<Arm>& arms, double p, double q, const Tolerances& tolerances, bool& answered) {
   Program program(tolerances.solver);
-  const int slack = program.column(-unbounded, 1), rows[3]{program.row(p, true), program.row(1, true), program.row(q, true)};
+  const int slack = program.column(-unbounded, 1),
+            rows[3]{program.row(p, true), program.row(1, true), program.row(q, true)};
   for (const Arm& arm : arms) {
     for (const double side : {arm.mu, -arm.mu}) {
       const Vector2d ray = arm.n + side * arm.t;

@@ -115,9 +115,10 @@ void bar_other_footholds(Scene& scene, Plan& plan, double around) {
       surface.foothold = surface.foothold && !bars(middle);
       chain.surfaces.push_back(surface);
     }
-    const bool last = segment.index + 1 == static_cast<int>(std::count_if(
-                          scene.terrain.segments().begin(), scene.terrain.segments().end(),
-                          [&](const terrain::Segment& other) { return other.chain == segment.chain; }));
+    const bool last =
+        segment.index + 1 ==
+        static_cast<int>(std::count_if(scene.terrain.segments().begin(), scene.terrain.segments().end(),
+                                       [&](const terrain::Segment& other) { return other.chain == segment.chain; }));
     if (last) chain.vertices.push_back(segment.b);
   }
   terrain::Terrain cut(std::move(chains));

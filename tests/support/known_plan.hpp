@@ -22,8 +22,8 @@ struct KnownPlan {
 /// `around` [m] of those of the plan; and all of these at once. Those that do not verify are left out.
 std::vector<KnownPlan> hard_scenes(const std::string& text, const gaits::Plan& plan, double around = 1e-3);
 
-/// The widest interval of x that every way from the start to the goal crosses, from the side of the start; equal ends if
-/// there is none.
+/// The widest interval of x that every way from the start to the goal crosses, from the side of the start; equal ends
+/// if there is none.
 std::pair<double, double> crossing(const gaits::Scene& scene);
 
 }  // namespace surefoot::testing

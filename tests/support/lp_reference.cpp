@@ -24,7 +24,10 @@ class Program {
   int variable(double low, double high, double cost = 0) {
     const int column = glp_add_cols(problem_, 1);
     const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
-    const int type = has_low && has_high ? (low == high ? GLP_FX : GLP_DB) : has_low ? GLP_LO : has_high ? GLP_UP : GLP_FR;
+    const int type = has_low && has_high ? (low == high ? GLP_FX : GLP_DB)
+                     : has_low           ? GLP_LO
+                     : has_high          ? GLP_UP
+                                         : GLP_FR;
     glp_set_col_bnds(problem_, column, type, low, high);
     glp_set_obj_coef(problem_, column, cost);
     return column;

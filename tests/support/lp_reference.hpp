@@ -20,7 +20,8 @@ inline constexpr double lp_feasible_above = 1e-7;
 
 class LpReference {
  public:
-  explicit LpReference(const SamplePosture& sample) : sample_(sample), structure_(analyse(sample.contacts, sample.rho)) {}
+  explicit LpReference(const SamplePosture& sample)
+      : sample_(sample), structure_(analyse(sample.contacts, sample.rho)) {}
   const Structure& structure() const { return structure_; }
 
   /// Greatest t with  sum lambda_k ray_k = wrench needed, lambda_k >= t : positive iff the wrench is in the interior

@@ -75,10 +75,8 @@ bool ModeBruteForce::leads_back(std::array<char, 2> mode) {
       continue;
     }
     m.row(at).head<3>() = normal_[i].transpose();
-    if (mode[i] == 'R')
-      m.row(at + 1).head<3>() = tangent_[i].transpose();
-    else
-      m.row(at + 1).segment<2>(at) = (t_[i] + sense(mode[i]) * mu_[i] * n_[i]).transpose();
+    if (mode[i] == 'R') m.row(at + 1).head<3>() = tangent_[i].transpose();
+    else m.row(at + 1).segment<2>(at) = (t_[i] + sense(mode[i]) * mu_[i] * n_[i]).transpose();
   }
   const Eigen::Matrix<double, 7, 1> x = m.fullPivLu().solve(rhs);
   bool possible = true, back = false;

@@ -37,8 +37,9 @@ std::vector<ContactMode> single_contact_modes(int count) {
 }  // namespace
 
 const char* name(Kind kind) {
-  constexpr std::array<const char*, 13> names{"gentle",  "any",     "flat",   "vee",        "stairs",  "ridge",       "walls",
-                                              "stacked", "incline", "treads", "coincident", "opposed", "frictionless"};
+  constexpr std::array<const char*, 13> names{"gentle",     "any",     "flat",        "vee",     "stairs",
+                                              "ridge",      "walls",   "stacked",     "incline", "treads",
+                                              "coincident", "opposed", "frictionless"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -21,23 +21,24 @@ using stability::DisturbanceBox;
 using stability::Wrench;
 
 enum class Kind {
-  gentle,         ///< normals within 30 degrees of up
-  any,            ///< normals of any direction
-  flat,           ///< level ground: all normals on parallel lines, all contacts on one line
-  vee,            ///< normals lean towards each other
-  stairs,         ///< level treads at different heights, some contacts on risers
-  ridge,          ///< normals lean away from each other
-  walls,          ///< nearly vertical ground, overhanging at times
-  stacked,        ///< a foot straight above another: some n_j passes through x_i
-  incline,        ///< collinear contacts on a slope
-  treads,         ///< parallel normals, contacts not on one line
-  coincident,     ///< two or three contacts at one point
-  opposed,        ///< two normals on one line, same or opposite sense
-  frictionless,   ///< any of the above with all mu = 0
+  gentle,        ///< normals within 30 degrees of up
+  any,           ///< normals of any direction
+  flat,          ///< level ground: all normals on parallel lines, all contacts on one line
+  vee,           ///< normals lean towards each other
+  stairs,        ///< level treads at different heights, some contacts on risers
+  ridge,         ///< normals lean away from each other
+  walls,         ///< nearly vertical ground, overhanging at times
+  stacked,       ///< a foot straight above another: some n_j passes through x_i
+  incline,       ///< collinear contacts on a slope
+  treads,        ///< parallel normals, contacts not on one line
+  coincident,    ///< two or three contacts at one point
+  opposed,       ///< two normals on one line, same or opposite sense
+  frictionless,  ///< any of the above with all mu = 0
 };
-inline constexpr std::array<Kind, 13> all_kinds{
-    Kind::gentle, Kind::any,     Kind::flat,    Kind::vee,    Kind::stairs,     Kind::ridge,   Kind::walls,
-    Kind::stacked, Kind::incline, Kind::treads, Kind::coincident, Kind::opposed, Kind::frictionless};
+inline constexpr std::array<Kind, 13> all_kinds{Kind::gentle,      Kind::any,    Kind::flat,       Kind::vee,
+                                                Kind::stairs,      Kind::ridge,  Kind::walls,      Kind::stacked,
+                                                Kind::incline,     Kind::treads, Kind::coincident, Kind::opposed,
+                                                Kind::frictionless};
 /// No row of theory section 4 vanishes there except by accident.
 inline constexpr std::array<Kind, 5> generic_kinds{Kind::gentle, Kind::any, Kind::vee, Kind::ridge, Kind::walls};
 

@@ -255,9 +255,7 @@ std::string family_scene(Family family, double value) {
       to(value, 0);
       a.overrides = {barred(1)};
       break;
-    case Family::wall_height:
-      to(0, value), to(0.2, 0), to(0, -value);
-      break;
+    case Family::wall_height: to(0, value), to(0.2, 0), to(0, -value); break;
     case Family::ceiling_height:
       b.vertices = {{3.6, 1.6}, {3.5, value}, {1.1, value}, {1, 1.6}};
       if (value >= 1.6) b.vertices = {{3.5, value}, {1.1, value}};

@@ -74,12 +74,16 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"", "f.yaml:1:1: nothing but white space or comments"},
       {"# only this\n\n", "f.yaml:1:1: nothing but white space or comments"},
       {"a: 1\nb: \xff\n", "f.yaml:2:4: byte 0xff is not UTF-8 text"},
-      {"\xFF\xFE" "a\0"s, "f.yaml:1:1: byte 0xff is not UTF-8 text"},
+      {"\xFF\xFE"
+       "a\0"s,
+       "f.yaml:1:1: byte 0xff is not UTF-8 text"},
       {"a: \xC0\x80", "f.yaml:1:4: byte 0xc0 is not UTF-8 text"},
       {"a: \xED\xA0\x80", "f.yaml:1:4: byte 0xed is not UTF-8 text"},
       {"a: \xE2\x82", "f.yaml:1:4: byte 0xe2 is not UTF-8 text"},
       {"a: 1\nb\0: 2\n"s, "f.yaml:2:2: control character 0x00; expected text"},
-      {"a: 1\n\x04" "b: 2\n", "f.yaml:2:1: control character 0x04; expected text"},  // ends yaml-cpp's input
+      {"a: 1\n\x04"
+       "b: 2\n",
+       "f.yaml:2:1: control character 0x04; expected text"},  // ends yaml-cpp's input
       {"a: 1\rb: 2\r", "f.yaml:1:5: control character 0x0d; expected text"},
   };
   for (const auto& [text, message] : refusals) {
@@ -117,7 +121,8 @@ TEST_CASE("files that are none are refused by name", "[document]") {
   std::ofstream(path("empty.yaml")).close();
   CHECK(error_of([&] { Document::read_file(path("empty.yaml")); }) ==
         path("empty.yaml") + ":1:1: nothing but white space or comments");
-  std::ofstream(path("good.yaml"), std::ios::binary) << "\xEF\xBB\xBF" "a: 1\r\nb: [2,\r\n 3]\r\n";
+  std::ofstream(path("good.yaml"), std::ios::binary) << "\xEF\xBB\xBF"
+                                                        "a: 1\r\nb: [2,\r\n 3]\r\n";
   const Document document = Document::read_file(path("good.yaml"));
   CHECK(document.root().require("a", "file").where() == path("good.yaml") + ":1:4");
   CHECK(document.root().require("b", "file").items("b", 2)[1].where() == path("good.yaml") + ":3:2");
@@ -127,11 +132,20 @@ TEST_CASE("files that are none are refused by name", "[document]") {
 
 TEST_CASE("numbers are read as the nearest double", "[document]") {
   const std::vector<std::pair<std::string, double>> numbers{
-      {"0", 0.0}, {"-0.3", -0.3}, {"+1.5", 1.5}, {".5", 0.5}, {"5.", 5.0}, {"1e-3", 1e-3}, {"1E+3", 1e3},
-      {"-2.5e2", -250}, {"0.1000000000000000055511151231257827021181583404541015625", 0.1},
+      {"0", 0.0},
+      {"-0.3", -0.3},
+      {"+1.5", 1.5},
+      {".5", 0.5},
+      {"5.", 5.0},
+      {"1e-3", 1e-3},
+      {"1E+3", 1e3},
+      {"-2.5e2", -250},
+      {"0.1000000000000000055511151231257827021181583404541015625", 0.1},
       {"1.7976931348623157e308", std::numeric_limits<double>::max()},
       {"4.9406564584124654e-324", std::numeric_limits<double>::denorm_min()},
-      {"9007199254740993", 9007199254740992.0}, {"0.30000000000000004", 0.1 + 0.2}, {"0e5", 0.0},
+      {"9007199254740993", 9007199254740992.0},
+      {"0.30000000000000004", 0.1 + 0.2},
+      {"0e5", 0.0},
       {"123456789012345678901234567890", 123456789012345678901234567890.0}};
   for (const auto& [text, value] : numbers) {
     CAPTURE(text);
@@ -144,19 +158,39 @@ TEST_CASE("what is no plain decimal number is refused with the value and what is
   const std::string form = " is not a finite decimal number; expected a number such as 0.25 or 1e-3";
   const std::string zero = " has a leading zero; expected a decimal number without";
   const std::string range = " is too large or too small for a double; expected a number such as 0.25 or 1e-3";
-  const std::vector<Refusal> refusals{
-      {".nan", ".nan" + form}, {".inf", ".inf" + form}, {"-.inf", "-.inf" + form}, {"nan", "nan" + form},
-      {"inf", "inf" + form}, {"infinity", "infinity" + form}, {"0x10", "0x10" + form}, {"0o10", "0o10" + form},
-      {"1_000", "1_000" + form}, {"0,5", "0,5" + form}, {"1.2.3", "1.2.3" + form}, {"1e", "1e" + form},
-      {"--1", "--1" + form}, {"+-1", "+-1" + form}, {".", "." + form}, {"1 2", "1 2" + form},
-      {"12:30", "12:30" + form}, {"abc", "abc" + form}, {"1e5f", "1e5f" + form}, {"010", "010" + zero},
-      {"-007.5", "-007.5" + zero}, {"1e999", "1e999" + range}, {"-1e999", "-1e999" + range},
-      {"1e-999", "1e-999" + range},
-      {"'1'", "\"1\" is a text; expected a number"}, {"\"\"", "\"\" is a text; expected a number"},
-      {"[1]", "a list of 1 item is given; expected a number"}, {"{b: 1}", "a map is given; expected a number"},
-      {"~", "nothing is given; expected a number"}, {"null", "nothing is given; expected a number"},
-      {"", "nothing is given; expected a number"},
-      {"aaaaaaaaaabbbbbbbbbbccccccccccddddddddddeeeee", "aaaaaaaaaabbbbbbbbbbccccccccccdddddddddd..." + form}};
+  const std::vector<Refusal> refusals{{".nan", ".nan" + form},
+                                      {".inf", ".inf" + form},
+                                      {"-.inf", "-.inf" + form},
+                                      {"nan", "nan" + form},
+                                      {"inf", "inf" + form},
+                                      {"infinity", "infinity" + form},
+                                      {"0x10", "0x10" + form},
+                                      {"0o10", "0o10" + form},
+                                      {"1_000", "1_000" + form},
+                                      {"0,5", "0,5" + form},
+                                      {"1.2.3", "1.2.3" + form},
+                                      {"1e", "1e" + form},
+                                      {"--1", "--1" + form},
+                                      {"+-1", "+-1" + form},
+                                      {".", "." + form},
+                                      {"1 2", "1 2" + form},
+                                      {"12:30", "12:30" + form},
+                                      {"abc", "abc" + form},
+                                      {"1e5f", "1e5f" + form},
+                                      {"010", "010" + zero},
+                                      {"-007.5", "-007.5" + zero},
+                                      {"1e999", "1e999" + range},
+                                      {"-1e999", "-1e999" + range},
+                                      {"1e-999", "1e-999" + range},
+                                      {"'1'", "\"1\" is a text; expected a number"},
+                                      {"\"\"", "\"\" is a text; expected a number"},
+                                      {"[1]", "a list of 1 item is given; expected a number"},
+                                      {"{b: 1}", "a map is given; expected a number"},
+                                      {"~", "nothing is given; expected a number"},
+                                      {"null", "nothing is given; expected a number"},
+                                      {"", "nothing is given; expected a number"},
+                                      {"aaaaaaaaaabbbbbbbbbbccccccccccddddddddddeeeee",
+                                       "aaaaaaaaaabbbbbbbbbbccccccccccdddddddddd..." + form}};
   for (const auto& [text, message] : refusals) {
     CAPTURE(text);
     const std::string place = text.empty() ? "f.yaml:1:1: " : "f.yaml:1:4: ";
@@ -166,9 +200,9 @@ TEST_CASE("what is no plain decimal number is refused with the value and what is
 }
 
 TEST_CASE("bounds, integers, booleans and texts say what they expect", "[document]") {
-  const Document document =
-      parse("{neg: -0.3, zero: 0, minus: -0.0, big: 9223372036854775808, least: -9223372036854775808, half: 0.5, "
-            "octal: 010, yes: yes, True: True, t: true, f: false, quoted: \"true\", e: 1e3, name: caf\u00e9, n: 12}");
+  const Document document = parse(
+      "{neg: -0.3, zero: 0, minus: -0.0, big: 9223372036854775808, least: -9223372036854775808, half: 0.5, "
+      "octal: 010, yes: yes, True: True, t: true, f: false, quoted: \"true\", e: 1e3, name: caf\u00e9, n: 12}");
   const Node& root = document.root();
   const auto at = [&](const char* key) -> const Node& { return root.require(key, "file"); };
   CHECK(error_of([&] { at("neg").not_negative("friction"); }) ==
@@ -204,7 +238,8 @@ TEST_CASE("bounds, integers, booleans and texts say what they expect", "[documen
 TEST_CASE("JSON reads as the same tree", "[document]") {
   const Document document = parse(
       "{\n\t\"a\": \"caf\\u00e9 \\\"x\\\" \\/ \\\\\", \"b\":[1.25,-3e-2,null,true,\"inf\"],\"c\":{\"1\":{}, \"2\": []},"
-      "\"long\":\"" + std::string(3000, 'x') + "\", \"d\": \"\"}\n");
+      "\"long\":\"" +
+      std::string(3000, 'x') + "\", \"d\": \"\"}\n");
   const Node& root = document.root();
   CHECK(root.require("a", "x").text("a") == "caf\u00e9 \"x\" / \\");
   const auto& b = root.require("b", "x").items("b", 5);

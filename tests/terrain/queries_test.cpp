@@ -262,13 +262,13 @@ TEST_CASE("a sector is free exactly when no segment reaches into it, whatever it
 TEST_CASE("a sector knows its degenerate openings and that touching is not free", "[queries]") {
   const Terrain terrain({Chain{{{-5, 0}, {5, 0}}, {{0.5, true}}}});
   const Point centre(0, 1), right(1, 0), left(-1, 0), down(0, -1), up(0, 1);
-  CHECK_FALSE(terrain.sector_is_free(centre, 1, left, right));      // half disc, touches below
+  CHECK_FALSE(terrain.sector_is_free(centre, 1, left, right));  // half disc, touches below
   CHECK(terrain.sector_is_free(centre, 0.99, left, right));
-  CHECK(terrain.sector_is_free(centre, 3, right, left));            // the half disc above
-  CHECK_FALSE(terrain.sector_is_free(centre, 1, down, down));       // one ray, its end touches
+  CHECK(terrain.sector_is_free(centre, 3, right, left));       // the half disc above
+  CHECK_FALSE(terrain.sector_is_free(centre, 1, down, down));  // one ray, its end touches
   CHECK(terrain.sector_is_free(centre, 0.99, down, down));
-  CHECK(terrain.sector_is_free(centre, 3, up, 7 * up));             // one ray
-  CHECK_FALSE(terrain.sector_is_free(centre, 1.5, up, right));      // the long way round, over left and down
+  CHECK(terrain.sector_is_free(centre, 3, up, 7 * up));         // one ray
+  CHECK_FALSE(terrain.sector_is_free(centre, 1.5, up, right));  // the long way round, over left and down
   CHECK(terrain.sector_is_free(centre, 1.5, right, up));
   CHECK_FALSE(terrain.sector_is_free(Point(0, 0), 0, right, right));  // the centre touches
   CHECK_FALSE(terrain.sector_is_free(Point(0, 0), 0.1, up, up));

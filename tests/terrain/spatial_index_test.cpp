@@ -67,11 +67,12 @@ TEST_CASE("the nearest piece is found though boxes are left out", "[index]") {
       const auto squared = [&](const Piece& piece) { return (piece.a - p).squaredNorm(); };
       double expected = std::numeric_limits<double>::infinity(), least = expected;
       for (const Piece& piece : pieces) expected = std::min(expected, squared(piece));
-      index.nearest(least, [&](const Box& box) { return box.squared_distance(p.x(), p.y()); },
-                    [&](std::int32_t, const Piece& piece) {
-                      ++visited;
-                      least = std::min(least, squared(piece));
-                    });
+      index.nearest(
+          least, [&](const Box& box) { return box.squared_distance(p.x(), p.y()); },
+          [&](std::int32_t, const Piece& piece) {
+            ++visited;
+            least = std::min(least, squared(piece));
+          });
       REQUIRE(least == expected);
     }
   }

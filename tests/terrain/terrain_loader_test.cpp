@@ -34,7 +34,8 @@ TEST_CASE("a terrain block is read with its overrides", "[loader]") {
       "      2: {friction: 0.3, foothold: true}\n"
       "  - vertices:\n"
       "      - [5, 1]\n"
-      "      - [4, 1]\n", "s.yaml");
+      "      - [4, 1]\n",
+      "s.yaml");
   const Terrain terrain = load_terrain(document.root());
   REQUIRE(terrain.chain_count() == 2);
   REQUIRE(terrain.segments().size() == 4);
@@ -118,8 +119,8 @@ TEST_CASE("every fault of a terrain block has its place and words", "[loader]") 
 }
 
 TEST_CASE("chains may turn back, close and stand alone", "[loader]") {
-  CHECK(error_of(with_vertices("[[0, 0], [4, 0], [4, 4], [0, 0]]")) == "no error");                   // closed
-  CHECK(error_of(with_vertices("[[0, 0], [1, 0], [2, 0], [3, 1e-9], [2, 1e-9]]")) == "no error");     // overhang
+  CHECK(error_of(with_vertices("[[0, 0], [4, 0], [4, 4], [0, 0]]")) == "no error");                    // closed
+  CHECK(error_of(with_vertices("[[0, 0], [1, 0], [2, 0], [3, 1e-9], [2, 1e-9]]")) == "no error");      // overhang
   CHECK(error_of(with_vertices("[[0, 0], [4, 0]]", "  - vertices: [[4, 1], [0, 1]]")) == "no error");  // ceiling
   CHECK(error_of(with_vertices("[[0, 0], [4, 0]]", "    segments: {}")) == "no error");
 }

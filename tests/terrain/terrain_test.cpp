@@ -98,7 +98,7 @@ TEST_CASE("unsound chains are refused with the place of the fault", "[terrain]")
       {{chain_of({{0, nan}, {1, 0}})}, 0, 0, -1, -1},
       {{chain_of({{0, 0}, {1, 1e200}})}, 0, 1, -1, -1},
       {{chain_of({{0, 0}, {1, 0}, {1, -0.0}})}, 0, 2, -1, -1},
-      {{chain_of({{0, 0}, {2, 0}, {1, 0}})}, 0, 1, 0, 0},              // folds back
+      {{chain_of({{0, 0}, {2, 0}, {1, 0}})}, 0, 1, 0, 0},                  // folds back
       {{chain_of({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 0}})}, 0, 3, 0, 0},  // touches
       {{chain_of({{0, 0}, {2, 0}, {2, 2}, {0, 0}, {2, 0}})}, 0, 2, 0, 0},
       {{chain_of({{0, 0}, {3, 0}, {1, 1}, {-1, 0}, {0, 0}, {1, -1}})}, 0, 3, 0, 0},  // passes its begin

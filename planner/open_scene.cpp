@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdio>
 
 #include "planner/canned_scenes.hpp"
@@ -14,8 +16,14 @@ constexpr const char* stdin_name = "<stdin>";
 std::string read_stdin() { return terrain::read_all(stdin, stdin_name); }
 
 gaits::Scene open_scene(const std::string& path) {
-  if (path == "-") return gaits::parse_scene(read_stdin(), stdin_name);
-  return gaits::load_scene(scene_file(path));
+  terrain::FaultList faults;
+  std::optional<gaits::Scene> scene = open_scene(path, faults);
+  if (scene) return *std::move(scene);
+  const terrain::InputError first = faults.kept().front();
+  if (faults.count() == 1) throw first;
+  throw terrain::InputError(fmt::format("{} (and {} more: surefoot validate {})", first.what(), faults.count() - 1,
+                                        path),
+                            first.line, first.column);
 }
 
 std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults) {

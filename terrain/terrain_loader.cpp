@@ -51,6 +51,7 @@ void load_overrides(const Node& node, std::vector<Surface>& surfaces) {
 }
 
 Chain load_chain(const Node& node, const Surface& surface) {
+  if (node.kind() != Node::Kind::map) node.refuse("chain", "vertices: [[x, y], [x, y], ...]");
   node.allow_only({"vertices", "segments"}, "chain");
   const Node& vertices = node.require("vertices", "chain");
   const auto& items = vertices.items("vertices");

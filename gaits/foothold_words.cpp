@@ -70,21 +70,22 @@ std::string no_foothold_at_x(const Terrain& ground, double x) {
   return off_the_ground(ground, x);
 }
 
+bool cannot_push_up(const terrain::Foothold& foot) {
+  // The forces n + m t with |m| <= mu and t = (n_y, -n_x) rise at most n_y + mu |n_x|.
+  constexpr double rounding = 1e-12;  // [1], a few units in the last place of a normal
+  return foot.normal.y() + foot.friction * std::abs(foot.normal.x()) < -rounding * (1 + foot.friction);
+}
+
 std::optional<int> chain_above_start(const Start& start) {
-  // The forces n + m t with |m| <= mu and t = (n_y, -n_x) rise at most n_y + mu |n_x|. Beyond the rounding of a unit
-  // normal, so that what is refused is certain.
-  constexpr double rounding = 1e-12;
-  const terrain::Foothold* first = nullptr;
+  std::optional<int> chain;
   for (int leg = 0; leg < leg_count; ++leg) {
     const auto& foot = start.feet[static_cast<std::size_t>(leg)];
     const bool may_carry = !start.support || leg == start.support->first || leg == start.support->second;
     if (!foot || !may_carry) continue;
-    if (foot->normal.y() + foot->friction * std::abs(foot->normal.x()) > -rounding * (1 + foot->friction)) {
-      return std::nullopt;
-    }
-    if (!first) first = &*foot;
+    if (!cannot_push_up(*foot)) return std::nullopt;
+    if (!chain) chain = foot->chain;
   }
-  return first ? std::optional(first->chain) : std::nullopt;
+  return chain;
 }
 
 }  // namespace surefoot::gaits

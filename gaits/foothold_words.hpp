@@ -11,6 +11,9 @@ namespace surefoot::gaits {
 /// For an x [m] at which Terrain::footholds_at_x finds nothing.
 std::string no_foothold_at_x(const terrain::Terrain& ground, double x);
 
+/// Every force within its friction cone points down, beyond the rounding of a unit normal.
+bool cannot_push_up(const terrain::Foothold& foot);
+
 /// The chain of the first start foot, if none of the feet that may carry the first stance can push up (every force
 /// within their friction cones points down): no stance on them balances, under any criterion. Most likely the chain was
 /// given the wrong way round.

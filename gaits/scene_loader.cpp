@@ -104,6 +104,7 @@ struct Stability {
 };
 
 Stability read_stability(const Node& node) {
+  if (node.kind() != Node::Kind::map) node.refuse("stability", "{criterion: robust} or another criterion");
   const bool known = node.allow_only({"criterion", "restitution"}, "stability");
   const Node *chosen = node.find("criterion"), *e = node.find("restitution");
   Stability stability;

@@ -89,6 +89,8 @@ constexpr const char* foot_form = "{x: number}, {chain: number, s: number} or nu
 std::optional<Foothold> read_foot(const Node& node, const Terrain* ground) {
   if (node.is_null()) return std::nullopt;
   if (node.kind() != Node::Kind::map) node.refuse("foot", foot_form);
+  if (const Node* y = node.find("y"); y && node.find("x"))
+    y->fail("y: the height of a foot follows from the terrain; expected {x} alone, or {chain, s}");
   if (!node.allow_only({"x", "chain", "s"}, "foot")) throw terrain::AlreadyTold();
   if (node.entries("foot").empty()) node.fail(fmt::format("foot: nothing is given; expected {}", foot_form));
   if (!node.find("x")) return read_foot_by_arc_length(node, ground);

@@ -157,7 +157,8 @@ StartChoice choose_start(StepProposals& proposals) {
   }
   std::stable_partition(choice.nodes.begin(), choice.nodes.end(),
                         [&](const Node& node) { return scene.goal.contains(node.com); });
-  if (!choice.nodes.empty()) choice.fault.clear();
+  if (choice.nodes.empty()) choice.fault += hanging_feet(scene);
+  else choice.fault.clear();
   return choice;
 }
 

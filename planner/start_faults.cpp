@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gaits/foothold_words.hpp"
 #include "planner/com_window.hpp"
 
 namespace surefoot::planner {
@@ -74,7 +75,7 @@ std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stanc
       greatest = std::max(greatest, edge.x() / edge.y());
     }
   }
-  const double borne = std::min(greatest, -least), kappa = scene.disturbance.kappa;
+  const double borne = std::min(greatest, -least) + 0.0, kappa = scene.disturbance.kappa;
   if (!(kappa > borne + rounding * (1 + std::max(greatest, -least)) || (level && kappa >= borne))) return "";
   if (borne <= 0 && !level)
     return fmt::format(
@@ -102,14 +103,34 @@ bool no_com_balances(const gaits::Scene& scene, const gaits::Feet& feet, const s
   return left.empty();
 }
 
+bool same_place(const gaits::Stance& stance) {
+  const gaits::Feet& feet = stance.feet;
+  const auto& one = feet[0] ? feet[0] : feet[1];
+  const auto& other = feet[2] ? feet[2] : feet[1];
+  return one->position == other->position;
+}
+
 }  // namespace
+
+std::string hanging_feet(const gaits::Scene& scene) {
+  std::string text;
+  for (int leg = 0; leg < gaits::leg_count; ++leg) {
+    const auto& foot = scene.start.feet[leg];
+    if (!foot || !gaits::cannot_push_up(*foot)) continue;
+    text += fmt::format("; foot {} hangs below chain {}, which runs from right to left there: reverse its vertices?",
+                        leg + 1, foot->chain);
+  }
+  return text;
+}
 
 BalanceFault balance_fault(const gaits::Scene& scene, const gaits::Stance& stance) {
   const auto [kappa, nu] = scene.disturbance;
   const std::string nobody = fmt::format("no COM within reach of feet {} ", legs_of(stance));
   const auto impossible = [&](double p, double q) { return no_com_balances(scene, stance.feet, {p, q}); };
   if (!impossible(kappa, nu)) return {false, nobody + "was found to balance every disturbance"};
-  if (impossible(0, 0)) return {true, nobody + "balances, even without disturbances"};
+  if (impossible(0, 0))
+    return {true,
+            nobody + "balances, even without disturbances" + (same_place(stance) ? ": they stand at one point" : "")};
   const bool push = impossible(kappa, 0), turn = impossible(0, nu);
   std::string cause = fmt::format("kappa = {} and nu = {} together are too much", kappa, nu);
   if (push != turn)

@@ -17,6 +17,9 @@ std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& st
 /// Proof from the friction cones alone that two feet bear no push of kappa, wherever the COM is; "" if there is none.
 std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stance);
 
+/// Start feet from which a robot could only hang, with what may be wrong; "" if there are none.
+std::string hanging_feet(const gaits::Scene& scene);
+
 struct BalanceFault {
   bool proven = false;
   std::string words;

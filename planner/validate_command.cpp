@@ -8,6 +8,7 @@
 #include "planner/console.hpp"
 #include "planner/infeasibility.hpp"
 #include "planner/problem.hpp"
+#include "planner/start_faults.hpp"
 #include "planner/step_proposals.hpp"
 
 namespace surefoot::planner {
@@ -41,7 +42,8 @@ std::string start_summary(const gaits::Scene& scene, terrain::FaultList& faults)
     return "";
   }
   const auto impossible = prove_infeasible(scene);
-  if (impossible && impossible->obstacle == Obstacle::start) return "the start cannot stand: " + impossible->reason;
+  if (impossible && impossible->obstacle == Obstacle::start)
+    return "the start cannot stand: " + impossible->reason + hanging_feet(scene);
   return "no stable start was found: " + choice.fault;
 }
 

@@ -32,7 +32,9 @@ class DocumentBuilder : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ == 1) return;
-    fail(mark, "content after the end of the value; expected one value (is the indentation right?)");
+    const std::string advice = advice_on_line_above(source_, static_cast<std::size_t>(mark.pos));
+    fail(mark, "content after the end of the value; expected one value" +
+                   (advice.empty() ? " (is the indentation right?)" : advice));
   }
   void OnDocumentEnd() override {}
 

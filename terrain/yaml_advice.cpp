@@ -20,13 +20,14 @@ std::string_view content(std::string_view line) {
   return whole.starts_with('#') ? "" : trimmed(whole.substr(0, whole.find(" #")));
 }
 
+bool is_blank(std::string_view line, std::size_t i) { return i >= line.size() || blanks.find(line[i]) != blanks.npos; }
+
 bool has_key(std::string_view line) { return line.ends_with(':') || line.find(": ") != std::string_view::npos; }
 
-/// A colon with something right behind it, as in "a:1".
+/// The first colon has something right behind it, as in "a:1".
 bool has_close_colon(std::string_view line) {
-  for (std::size_t i = line.find(':'); i != std::string_view::npos; i = line.find(':', i + 1))
-    if (i + 1 < line.size() && line[i + 1] != ' ' && line[i + 1] != '\t') return true;
-  return false;
+  const std::size_t colon = line.find(':');
+  return colon != std::string_view::npos && !is_blank(line, colon + 1);
 }
 
 struct Line {
@@ -36,6 +37,7 @@ struct Line {
 
 /// The nearest line above a position that is neither empty nor a comment.
 std::optional<Line> line_above(const Source& source, std::size_t position) {
+  position = std::min(position, source.text.size());
   std::size_t number = source.line_of(position);
   for (std::size_t begin = position - source.line_before(position).size(); begin > 0; --number) {
     const std::string_view line = source.line_before(begin - 1);
@@ -55,15 +57,9 @@ constexpr const char* same_column = "; keys of one map, or dashes of one list, b
 
 /// The parser wanted the next key or dash of a block, and found something else.
 std::string misplaced(const Source& source, std::size_t position) {
-  const auto above = line_above(source, position);
-  if (!above) return same_column;
-  const std::string line = "; on line " + std::to_string(above->number) + " a ";
-  const std::string_view text = above->content;
-  if (text.size() > 1 && text[0] == '-' && std::isalpha(static_cast<unsigned char>(text[1])))
-    return line + "space must follow the dash";
-  if (!has_key(text) && has_close_colon(text)) return line + "space must follow the colon";
-  if (!has_key(text)) return line + "colon is missing (key: value)";
-  return same_column;
+  if (source.text.substr(position, 1) == ",") return "; a list of several on one line stands in square brackets";
+  const std::string advice = advice_on_line_above(source, position);
+  return advice.empty() ? same_column : advice;
 }
 
 /// A colon where no value may begin.
@@ -71,14 +67,26 @@ std::string unexpected_colon(const Source& source, std::size_t position) {
   const std::string_view before = source.line_before(position);
   const std::string_view indentation = before.substr(0, before.find_first_not_of(blanks));
   if (indentation.find('\t') != std::string_view::npos) return "; a tab stands in the indentation: indent by spaces";
-  if (has_key(content(before))) return "; a text that holds a colon must stand in quotes";
-  if (has_close_colon(before)) return "; a space must follow a colon";
-  const auto above = line_above(source, position);
-  if (above && !has_key(above->content)) return misplaced(source, position);
-  return "";
+  if (has_close_colon(content(before))) return "; a space must follow a colon";
+  if (has_key(content(before))) return "; a text that holds a colon stands in quotes, a map on one line in braces {}";
+  return advice_on_line_above(source, position);
 }
 
 }  // namespace
+
+std::string advice_on_line_above(const Source& source, std::size_t position) {
+  const auto above = line_above(source, position);
+  if (!above) return "";
+  const std::string line = "; on line " + std::to_string(above->number) + " a ";
+  const std::string_view text = above->content;
+  if (text.size() > 1 && text[0] == '-' && std::isalpha(static_cast<unsigned char>(text[1])))
+    return line + "space must follow the dash";
+  if (text.starts_with("//")) return line + "comment must begin with #";
+  if (!std::isalpha(static_cast<unsigned char>(text[0]))) return "";  // no word that could be a key
+  if (!has_key(text) && has_close_colon(text)) return line + "space must follow the colon";
+  if (!has_key(text)) return line + "colon is missing (key: value)";
+  return "";
+}
 
 std::string yaml_advice(const Source& source, std::string_view message, std::size_t position,
                         std::optional<std::size_t> open) {

@@ -251,6 +251,8 @@ TEST_CASE("feet that cannot stand where they are put are refused", "[scene]") {
             "s.yaml:19:25: x: 1.75 is ambiguous; expected one of: {chain: 0, s: 2.9}, {chain: 1, s: 0.25} (a ceiling)"},
       Fault{"{x: 0.1}", "{x: 0.1, s: 1}", "s.yaml:19:21: foot: x is given besides chain and s"},
       Fault{"{x: 0.1}", "{}", "s.yaml:19:21: foot: nothing is given"},
+      Fault{"{x: 0.1}", "{x: 0.1, y: 0}",
+            "s.yaml:19:33: y: the height of a foot follows from the terrain; expected {x} alone, or {chain, s}"},
       Fault{"{x: 0.1}", "0.1",
             "s.yaml:19:21: foot: 0.1 is given; expected {x: number}, {chain: number, s: number} or null"},
       Fault{"{x: 0.1}, ", "",

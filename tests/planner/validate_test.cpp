@@ -89,6 +89,7 @@ TEST_CASE("A start that cannot stand is refused with its cause by plan and valid
        none + " every disturbance: kappa = 0.21 alone is too much"},
       {with("0.6", "0.5", with("[4, 0]", "[4, 5]")),
        "no COM balances on feet 1 and 2, even without disturbances: the ground is too steep for its friction"},
+      {with("{x: 0.25}", "{x: -0.3}"), none + ", even without disturbances: they stand at one point"},
       {with("  support", "  com: [0, 0.4]\n  support", with("kappa: 0.1", "kappa: 0.7")),
        level + "0.6 of the weight, kappa is 0.7"},
   };
@@ -125,6 +126,16 @@ TEST_CASE("A start that no search is needed to refuse is said to be impossible, 
   const auto run = place.run("validate s.yaml");
   CHECK(run.status == 0);
   CHECK_THAT(run.out, Catch::Contains("the start cannot stand: ") && Catch::Contains("keeps the clearance 2"));
+}
+
+TEST_CASE("A foot that hangs below a chain given the wrong way round is named where the start cannot stand",
+          "[validate]") {
+  const Workplace place;
+  place.write("s.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [0, 0]]\n    - vertices: [[4, 0], [0.05, 0]]",
+                             with("{x: 0}", "null")));
+  CHECK_THAT(place.run("validate s.yaml").out,
+             Catch::Contains(
+                 "; foot 2 hangs below chain 1, which runs from right to left there: reverse its vertices?"));
 }
 
 TEST_CASE("Scene and plan in each other's place are told apart", "[validate]") {

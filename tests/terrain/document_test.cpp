@@ -72,7 +72,9 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
        "f.yaml:1:4?"},
       {"\"\\", "f.yaml:1:4: not valid YAML: unknown escape character"},
       {"\"\\\u00e4\"", "f.yaml:1:4: not valid YAML: unknown escape character"},
-      {"a: b: c\n", "f.yaml:1:5: not valid YAML: illegal map value; a text that holds a colon must stand in quotes"},
+      {"a: b: c\n",
+       "f.yaml:1:5: not valid YAML: illegal map value; a text that holds a colon stands in quotes, a map on one line "
+       "in braces {}"},
       {"a: 1\n\tb: 2\n", "f.yaml:2:1: not valid YAML: illegal tab when looking for indentation; indent by spaces"},
       {"", "f.yaml:1:1: nothing but white space or comments"},
       {"# only this\n\n", "f.yaml:1:1: nothing but white space or comments"},
@@ -107,8 +109,11 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
       {"t:\n  f:0.6  # mu: Coulomb\n\n  # more\n  c: 1\n", "on line 2 a space must follow the colon"},
       {"t:\n  f = 0.6  # mu: Coulomb\n  c: 1\n", "on line 2 a colon is missing (key: value)"},
       {"r\n  g: 1\n", "on line 1 a colon is missing (key: value)"},
-      {"d:{k: 1}\n", "a space must follow a colon"},
-      {"name: my: scene\n", "a text that holds a colon must stand in quotes"},
+      {"name: my: scene\n", "a text that holds a colon stands in quotes, a map on one line in braces {}"},
+      {"goal: com_x: [1, 2]\n", "a text that holds a colon stands in quotes, a map on one line in braces {}"},
+      {"d:{k: 0.1, n: 1}\n", "a space must follow a colon"},
+      {"f: {x: 1}, {x: 2}\n", "a list of several on one line stands in square brackets"},
+      {"t:\n  // mu\n  f: 1\n", "on line 2 a comment must begin with #"},
       {"c:\n  -v: 1\n    s: 1\n", "on line 2 a space must follow the dash"},
       // Indentation.
       {"t:\n  f: 0.6\n c: 1\n", "keys of one map, or dashes of one list, begin in the same column"},
@@ -121,6 +126,10 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
     CHECK_THAT(error, Catch::StartsWith("f.yaml:") && Catch::Contains(": not valid YAML: ") && Catch::EndsWith(advice));
     CHECK(error.find('\n') == std::string::npos);
   }
+  CHECK(parse_error("surefoot:1\nname: x\n") ==
+        "f.yaml:2:5: not valid YAML: illegal map value; on line 1 a space must follow the colon");
+  CHECK(parse_error("surefoot:1  # version\nname: x\n") ==
+        "f.yaml:2:1: content after the end of the value; expected one value; on line 1 a space must follow the colon");
 }
 
 TEST_CASE("a number in the dress of another convention is told how to be written", "[document]") {

@@ -15,6 +15,7 @@ constexpr const char* stdin_name = "<stdin>";
 
 std::string read_stdin() { return terrain::read_all(stdin, stdin_name); }
 
+/// Throws the first fault in the order of the file, with the number of the others.
 gaits::Scene open_scene(const std::string& path) {
   terrain::FaultList faults;
   std::optional<gaits::Scene> scene = open_scene(path, faults);

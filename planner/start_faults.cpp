@@ -62,7 +62,8 @@ std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stanc
   // slopes between the least and the greatest e_x / e_y. Equality does not balance (R_SS is open); it is taken for
   // sure only on level ground, where the slopes are +-mu without rounding.
   if (scene.criterion == gaits::Criterion::frictional) return "";  // stances need not bear W
-  constexpr double rounding = 1e-12;  // [1] of a slope, relative; a few units in the last place
+  constexpr double least_rise = 1e-3;  // [1] of an edge, relative; flatter ones lose their slope to rounding
+  constexpr double rounding = 1e-11;   // [1] of a slope, relative; some units in the last place over least_rise
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   bool level = true;
   for (const auto& foot : stance.feet) {
@@ -70,7 +71,7 @@ std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stanc
     level = level && foot->normal.x() == 0;
     for (const double mu : {-foot->friction, foot->friction}) {
       const Eigen::Vector2d edge = foot->normal + mu * Eigen::Vector2d(foot->normal.y(), -foot->normal.x());
-      if (!(edge.y() > rounding * (1 + foot->friction))) return "";
+      if (!(edge.y() > least_rise * (1 + foot->friction))) return "";
       least = std::min(least, edge.x() / edge.y());
       greatest = std::max(greatest, edge.x() / edge.y());
     }

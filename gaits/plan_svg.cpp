@@ -257,7 +257,8 @@ class PlanPicture {
       canvas_.circle(at, dot_radius, com_dot, tooltip(k));
       const Vector2d above = at - Vector2d(0, 8);
       if (places.take(above, 15))
-        canvas_.text(above, std::to_string(k + 1), {.size = 10, .anchor = "middle", .halo = true});
+        canvas_.text(above, k == plan_.steps() ? "end" : std::to_string(k + 1),
+                     {.size = 10, .anchor = "middle", .halo = true});
     }
   }
 

@@ -124,15 +124,15 @@ void deliver(const PlanArguments& arguments, const gaits::Scene& scene, const ga
   outputs.commit(arguments.quiet);
 }
 
-/// For --explain where there is no plan; lines of text.
+/// For --explain where there is no plan; a paragraph of its own.
 std::string what_would_help(const gaits::Scene& scene, SearchOptions options, bool quiet) {
   if (!quiet) show_progress("looking for what would help ...");
   options.progress = [](const std::string&) {};
   const Remedies tried = remedies(scene, options);
   show_progress("");
-  std::string text = "No single change of friction, reach, disturbances or clearance was found to help.\n";
+  std::string text = "\nNo single change of friction, reach, disturbances or clearance was found to help.\n";
   if (!tried.found.empty())
-    text = "Each of these alone would do (with it a plan was found and verified; with less none was found):\n";
+    text = "\nEach of these alone would do (with it a plan was found and verified; with less none was found):\n";
   for (const RemedyFound& remedy : tried.found) text += fmt::format("  {}\n", remedy.words);
   if (tried.cut_off) text += "This was cut off by the time limit: others, or less, might do.\n";
   return text;
@@ -148,7 +148,8 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
     note(fmt::format("{}{}{}; {} is not written", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ",
                      plan.reason, file->path()));
   if (!file && arguments.explain && format == "text" && !options.interrupted())
-    write_stdout("\n" + what_would_help(scene, options, arguments.quiet));
+    write_stdout(what_would_help(scene, options, arguments.quiet));
+  if (!arguments.explain && !arguments.quiet) note("plan --explain looks for what would help");
   return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
 }
 

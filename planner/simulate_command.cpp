@@ -100,8 +100,11 @@ Subject read_subject(const SimulateArguments& a) {
   if (const auto given = triple(a.q_rate, "--q-rate", "vx,vy,omega")) subject.q_rate = given;
   if (const auto given = triple(a.heights, "--heights", "h1,h2,theta")) subject.heights = given;
   if (const auto given = triple(a.heights_rate, "--heights-rate", "u1,u2,omega")) subject.heights_rate = given;
+  const bool lacks_com = !request.com && !a.sample;
   if (request.options.restitution == 0)
-    throw InputError("restitution is missing: expected in the posture or scene, or as --restitution");
+    throw InputError(fmt::format("restitution is missing: expected in the posture or scene, or as --restitution{}",
+                                 lacks_com ? "; so is com, --com x,y" : ""));
+  if (lacks_com) throw InputError("com is missing: expected in the posture, as the scene's start.com, or as --com x,y");
   request.options.time_limit = a.time_limit ? positive(*a.time_limit, "--time-limit") : usual_time_limit;
   if (a.neighbourhood) request.neighbourhood = positive(*a.neighbourhood, "--neighbourhood");
   request.size = a.size ? positive(*a.size, "--size") : usual_size;
@@ -119,7 +122,9 @@ BodyState start_of(const HybridBody& body, const Subject& subject) {
   BodyState state;
   if (subject.heights || subject.heights_rate) {
     if (body.parallel_normals())
-      throw InputError("heights: the normals of the contacts are parallel and leave the place open, give q and q_rate");
+      throw InputError(
+          "heights: the normals of the contacts are parallel and leave the place open: give --q and --q-rate (in JSON "
+          "q and q_rate)");
     state = body.state_at_heights(subject.heights.value_or(zero), subject.heights_rate.value_or(zero));
   } else {
     state = body.state_at(subject.q.value_or(zero), subject.q_rate.value_or(zero));
@@ -163,8 +168,6 @@ int run_simulate(const SimulateArguments& arguments) {
     outputs.commit();
     return exit_success;
   }
-  if (!request.com)
-    throw InputError("com is missing: expected in the posture, as the scene's start.com, or as --com x,y");
   const HybridBody body(request.contacts, *request.com, request.rho, request.gravity, arguments.linearised);
   const SimulateRecord record = record_run(body, subject);
   if (outputs.wants("--svg")) {

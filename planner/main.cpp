@@ -102,7 +102,8 @@ CLI::App* add_check(CLI::App& app, CheckArguments& a) {
 
 CLI::App* add_validate(CLI::App& app, Arguments& a) {
   CLI::App* validate = app.add_subcommand("validate", "Say everything that is wrong with scenes, without planning");
-  validate->add_option("SCENE", a.validate_scenes, "scene files (YAML), - for standard input")->required();
+  validate->add_option("SCENE", a.validate_scenes, "scene files (YAML) or canned scenes, - for standard input")
+      ->required();
   validate->footer(
       "One line per fault (file:line:column: what), or one line that says what the scene holds.\n"
       "Exit status: 0 all scenes are in order, 2 one is not, or bad usage.\n"

@@ -16,9 +16,16 @@ constexpr const char* stdin_name = "<stdin>";
 
 std::string read_stdin() { return terrain::read_all(stdin, stdin_name); }
 
+/// Throws the first fault in the order of the file, with the number of the others.
 gaits::Scene open_scene(const std::string& path) {
-  if (path == "-") return gaits::parse_scene(read_stdin(), stdin_name);
-  return gaits::load_scene(scene_file(path));
+  terrain::FaultList faults;
+  std::optional<gaits::Scene> scene = open_scene(path, faults);
+  if (scene) return *std::move(scene);
+  const terrain::InputError first = faults.kept().front();
+  if (faults.count() == 1) throw first;
+  throw terrain::InputError(fmt::format("{} (and {} more: surefoot validate {})", first.what(), faults.count() - 1,
+                                        path),
+                            first.line, first.column);
 }
 
 std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults) {

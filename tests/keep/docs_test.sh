@@ -4,6 +4,7 @@
 #   other lines that begin with surefoot or ./surefoot         run, with status 0
 #   other lines of blocks with commands                        are listed below as not run
 #   the block after "<!-- begin: output of COMMAND"            is what COMMAND prints, apart from the time it took
+#   ```yaml                                                    is a scene in order
 #   ```python                                                  runs, where python3 is there
 #   ```cpp of the README, ```cmake of library.md               are left to tests/install/outside_test.sh; others are refused
 #   the rows of papers.md                                      name functions and tests that are there
@@ -84,6 +85,10 @@ for block in "$work"/blocks/*; do
         { cat "$work/printed" "$work/err" && fail "$place"; }
       [[ ! -s $work/expected ]] || diff -u --label "$place" --label "printed" "$work/expected" "$work/printed" || fail "$place"
       ran=$((ran + $(grep -c surefoot "$work/script")))
+      ;;
+    *.yaml)
+      surefoot validate "$block" >"$work/printed" 2>&1 || { cat "$work/printed" && fail "$place"; }
+      ran=$((ran + 1))
       ;;
     *.python)
       if command -v python3 >/dev/null; then

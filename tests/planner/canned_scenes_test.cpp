@@ -59,7 +59,8 @@ TEST_CASE("A canned scene is known by its name where no file is", "[command][can
   CHECK(place.run("check flat by_name.json").status == 0);
   std::filesystem::remove(place / "flat");
   place.write("flat", "surefoot: 1\nnonsense: 1\n");
-  CHECK_THAT(place.run("check flat by_name.json").err, Catch::Contains("flat:2:1: "));
+  CHECK_THAT(place.run("check flat by_name.json").err,
+             Catch::Contains("flat:1:1: scene: \"terrain\" is missing (and 5 more: surefoot validate flat)"));
 }
 
 TEST_CASE("What is neither file nor canned scene is answered with the nearest", "[command][canned]") {

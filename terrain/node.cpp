@@ -240,6 +240,7 @@ const std::vector<Node>& Node::items(std::string_view what, std::size_t n) const
 }
 
 const std::vector<std::pair<Node, Node>>& Node::entries(std::string_view what) const {
+  if (is_null()) refuse(what, "a map (key: value), indented below it");
   if (kind() != Kind::map) refuse(what, "a map (key: value)");
   return std::get<Entries>(content_);
 }

@@ -46,6 +46,8 @@ class Report {
     return text + left_out();
   }
 
+  std::string explanation() const { return resolution() + limits() + left_out(); }
+
  private:
   std::string heading() const {
     static const std::map<Status, const char*> words{{Status::solved, "solved"},
@@ -253,6 +255,11 @@ class Report {
 
 std::string to_text(const Scene& scene, const Plan& plan, const TextOptions& options) {
   return Report(scene, plan, options).print();
+}
+
+std::string explanation(const Scene& scene, const Plan& plan) {
+  const TextOptions options{.explain = true};
+  return Report(scene, plan, options).explanation();
 }
 
 }  // namespace surefoot::gaits

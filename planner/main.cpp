@@ -203,6 +203,10 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
                        meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
   }
   std::string message = fault.what();
+  const std::string unconverted = "Could not convert: ";  // "Could not convert: --time-limit = 1min"
+  if (const auto equals = message.find(" = "); message.starts_with(unconverted) && equals != std::string::npos)
+    return fmt::format("{}: found {}, expected a number",
+                       message.substr(unconverted.size(), equals - unconverted.size()), message.substr(equals + 3));
   const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&fault);
   if (extras == nullptr) return message;
   if (chosen != nullptr)
@@ -214,7 +218,8 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
       if (const std::string meant = near_miss(word, options); !meant.empty())
         return fmt::format("unknown option {}, did you mean {}?", word, meant);
   }
-  return message;
+  return fmt::format("{} (surefoot {}--help tells what is)", message,
+                     chosen == nullptr ? "" : chosen->get_name() + " ");
 }
 
 int run(int count, char** words) {

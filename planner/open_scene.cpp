@@ -4,6 +4,7 @@
 
 #include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
+#include "terrain/back_faces.hpp"
 
 namespace surefoot::planner {
 
@@ -35,6 +36,16 @@ std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultLi
     faults.add(fault);
     return std::nullopt;
   }
+}
+
+std::string reversed_chain_remark(const gaits::Scene& scene) {
+  const auto seen = terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max);
+  if (!seen) return "";
+  return fmt::format(
+      "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round? Free space "
+      "is on "
+      "the left of a chain: ground runs from left to right, a ceiling from right to left",
+      seen->chain, seen->from_chain, seen->at.x(), seen->at.y());
 }
 
 }  // namespace surefoot::planner

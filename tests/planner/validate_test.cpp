@@ -11,6 +11,19 @@ using surefoot::tests::flat_scene;
 using surefoot::tests::with;
 using surefoot::tests::Workplace;
 
+TEST_CASE("A ceiling given the wrong way round is remarked on, canned scenes are not", "[validate]") {
+  const Workplace place;
+  place.write("pipe.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [4, 0]]\n    - vertices: [[-1, 1.5], [4, 1.5]]"));
+  const auto run = place.run("validate pipe.yaml");
+  CHECK(run.status == 0);
+  CHECK(run.out.find("\npipe.yaml: remark: chain 1 turns its back to chain 0 at (1.5, 1.5)") != std::string::npos);
+  CHECK(place.run("plan pipe.yaml --effort 0").err.find("chain 1 turns its back") != std::string::npos);
+  CHECK(place.run("plan pipe.yaml --effort 0 -q").err.empty());
+  const auto canned = place.shell("'" SUREFOOT_BINARY "' validate " SUREFOOT_MAPS "/*.yaml");
+  CHECK(canned.out.find("flat.yaml: valid") != std::string::npos);
+  CHECK(canned.out.find("remark") == std::string::npos);
+}
+
 TEST_CASE("A scene in order is summed up on one line, status 0", "[validate]") {
   const Workplace place;
   place.write("scene.yaml", flat_scene);

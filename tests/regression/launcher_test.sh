@@ -72,6 +72,16 @@ fake sudo <<'END'
 exec "$@"
 END
 
+# Help before there is anything.
+: >"$installed"
+for arguments in --help "test --help" "plan -h"; do
+  # shellcheck disable=SC2086
+  run $arguments
+  expect "$arguments installs and builds nothing" nothing_called
+  expect "$arguments: status 0" test "$status" -eq 0
+  expect "$arguments tells how to go on" grep -q "surefoot test --sanitize" "$work/out"
+done
+
 # A first call on a bare machine.
 echo "cmake installed" >"$installed"
 if ((EUID == 0)); then

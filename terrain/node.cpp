@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include "terrain/document.hpp"
 #include "terrain/source.hpp"
@@ -11,7 +9,7 @@
 namespace surefoot::terrain {
 namespace {
 
-constexpr std::size_t longest_word = 64;  // longer ones have no near misses worth naming
+constexpr std::size_t longest_number = 64;  // longer ones are not looked at for a unit behind them
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -63,7 +61,7 @@ std::string number_meant_by(std::string_view text) {
     return "a point, no comma: " +
            shown(std::string(text.substr(0, comma)) + "." + std::string(text.substr(comma + 1)));
   }
-  std::size_t number = std::min(text.size(), longest_word);  // the longest beginning that is one
+  std::size_t number = std::min(text.size(), longest_number);  // the longest beginning that is one
   while (number > 0 && !is_number(text.substr(0, number))) --number;
   const std::string_view rest = text.substr(std::min(text.find_first_not_of(' ', number), text.size()));
   const bool unit = !rest.empty() && (std::isalpha(static_cast<unsigned char>(rest[0])) || rest[0] == '%' ||
@@ -240,6 +238,7 @@ const std::vector<Node>& Node::items(std::string_view what, std::size_t n) const
 }
 
 const std::vector<std::pair<Node, Node>>& Node::entries(std::string_view what) const {
+  if (is_null()) refuse(what, "a map (key: value), indented below it");
   if (kind() != Kind::map) refuse(what, "a map (key: value)");
   return std::get<Entries>(content_);
 }
@@ -292,47 +291,6 @@ void Node::refuse_key(const std::vector<std::string>& keys, std::string_view wha
   std::string list;
   for (const std::string& allowed : keys) list += (list.empty() ? "" : ", ") + allowed;
   fail(message + "expected one of: " + list);
-}
-
-namespace {
-
-/// Levenshtein distance, with the swap of two neighbouring letters as one edit, letter case aside.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  const auto same = [](char l, char r) {
-    return std::tolower(static_cast<unsigned char>(l)) == std::tolower(static_cast<unsigned char>(r));
-  };
-  std::array<std::vector<std::size_t>, 3> rows;
-  for (auto& row : rows) row.resize(b.size() + 1);
-  std::iota(rows[0].begin(), rows[0].end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    auto& row = rows[i % 3];
-    const auto &above = rows[(i + 2) % 3], &two_above = rows[(i + 1) % 3];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + !same(a[i - 1], b[j - 1])});
-      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
-        row[j] = std::min(row[j], two_above[j - 2] + 1);
-      }
-    }
-  }
-  return rows[a.size() % 3][b.size()];
-}
-
-}  // namespace
-
-std::string near_miss(std::string_view word, const std::vector<std::string>& candidates) {
-  if (word.size() > longest_word) return "";
-  // A word of which no letter need remain is near to nothing.
-  std::size_t nearest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, std::max<std::size_t>(word.size(), 1));
-  std::string best;
-  for (const std::string& candidate : candidates) {
-    if (candidate.size() > longest_word) continue;
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance >= nearest) continue;
-    nearest = distance;
-    best = candidate;
-  }
-  return best;
 }
 
 }  // namespace surefoot::terrain

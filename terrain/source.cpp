@@ -95,6 +95,8 @@ void Source::fail_at(std::size_t position, const std::string& message) const {
 }
 
 void Source::check_characters() const {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    fail_at(0, "this is UTF-16, not UTF-8 text; expected the file to be saved as UTF-8");
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = sequence_length(text, i);
     if (length == 0) fail_at(i, "byte " + hexadecimal(byte_at(text, i)) + " is not UTF-8 text");

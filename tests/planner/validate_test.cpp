@@ -13,7 +13,9 @@ using surefoot::tests::Workplace;
 
 TEST_CASE("A ceiling given the wrong way round is remarked on, canned scenes are not", "[validate]") {
   const Workplace place;
-  place.write("pipe.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [4, 0]]\n    - vertices: [[-1, 1.5], [4, 1.5]]"));
+  const std::string on_chain_0 = with("{x: -0.3}, {x: 0.25}, {x: 0}", "{chain: 0, s: 0.7}, {chain: 0, s: 1.25}, null");
+  place.write("pipe.yaml",
+              with("[[-1, 0], [4, 0]]", "[[-1, 0], [4, 0]]\n    - vertices: [[-1, 1.5], [4, 1.5]]", on_chain_0));
   const auto run = place.run("validate pipe.yaml");
   CHECK(run.status == 0);
   CHECK(run.out.find("\npipe.yaml: remark: chain 1 turns its back to chain 0 at (1.5, 1.5)") != std::string::npos);

@@ -81,7 +81,9 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"a: 1\nb: \xff\n", "f.yaml:2:4: byte 0xff is not UTF-8 text"},
       {"\xFF\xFE"
        "a\0"s,
-       "f.yaml:1:1: byte 0xff is not UTF-8 text"},
+       "f.yaml:1:1: this is UTF-16, not UTF-8 text; expected the file to be saved as UTF-8"},
+      {"\xFE\xFF\0a"s, "f.yaml:1:1: this is UTF-16, not UTF-8 text; expected the file to be saved as UTF-8"},
+      {"\xFF", "f.yaml:1:1: byte 0xff is not UTF-8 text"},
       {"a: \xC0\x80", "f.yaml:1:4: byte 0xc0 is not UTF-8 text"},
       {"a: \xED\xA0\x80", "f.yaml:1:4: byte 0xed is not UTF-8 text"},
       {"a: \xE2\x82", "f.yaml:1:4: byte 0xe2 is not UTF-8 text"},
@@ -309,6 +311,8 @@ TEST_CASE("bounds, integers, booleans and texts say what they expect", "[documen
   CHECK(tail(error_of([&] { parse("[1, 2]").root().items("x", 3); })) ==
         "x: a list of 2 items is given; expected a list of 3 items");
   CHECK(tail(error_of([&] { at("n").entries("x"); })) == "x: 12 is given; expected a map (key: value)");
+  CHECK(tail(error_of([&] { parse("a:\nb: 1").root().require("a", "x").entries("x"); })) ==
+        "x: nothing is given; expected a map (key: value), indented below it");
   CHECK(tail(error_of([&] { root.require("absent", "x"); })) == "x: \"absent\" is missing");
   CHECK(tail(error_of([&] { root.require("absent", "x", "; add it"); })) == "x: \"absent\" is missing; add it");
   CHECK(root.find("absent") == nullptr);

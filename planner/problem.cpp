@@ -62,7 +62,8 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   if (const std::string slips = friction_fault(scene, stance); !slips.empty()) return refuse(slips, true);
   const auto oracle = gaits::oracle_of(scene, stance.feet);
   const Polygon window = reach_window(stance.feet, proposals.robot().reach_max);
-  const Polygon polygon = window.empty() ? window : oracle.equilibrium_polygon(window);
+  const Polygon polygon =
+      window.empty() ? window : gaits::oracle_of(scene, stance.feet, box_of_stances(scene)).equilibrium_polygon(window);
   if (polygon.empty()) {
     const BalanceFault fault = balance_fault(scene, stance);
     return refuse(fault.words, fault.proven);

@@ -56,6 +56,11 @@ std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& st
                      sigma.value > 0 ? "" : balancing_coms(scene, stance));
 }
 
+stability::DisturbanceBox box_of_stances(const gaits::Scene& scene) {
+  if (scene.criterion != gaits::Criterion::frictional) return scene.disturbance;
+  return {.kappa = 0, .nu = 0};
+}
+
 std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stance) {
   // Forces f of the feet balance a disturbance fx/fy = q only if their sum is along (q, 1), so only if that direction
   // lies inside the cone spanned by the edges n +- mu t of all friction cones. Where all edges rise these are the
@@ -125,7 +130,7 @@ std::string hanging_feet(const gaits::Scene& scene) {
 }
 
 BalanceFault balance_fault(const gaits::Scene& scene, const gaits::Stance& stance) {
-  const auto [kappa, nu] = scene.disturbance;
+  const auto [kappa, nu] = box_of_stances(scene);
   const std::string nobody = fmt::format("no COM within reach of feet {} ", legs_of(stance));
   const auto impossible = [&](double p, double q) { return no_com_balances(scene, stance.feet, {p, q}); };
   if (!impossible(kappa, nu)) return {false, nobody + "was found to balance every disturbance"};

@@ -8,6 +8,9 @@
 
 namespace surefoot::planner {
 
+/// What the first stance must bear: under criterion frictional gravity alone.
+stability::DisturbanceBox box_of_stances(const gaits::Scene& scene);
+
 /// The legs that stand, "1 and 2".
 std::string legs_of(const gaits::Stance& stance);
 

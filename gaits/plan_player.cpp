@@ -15,7 +15,7 @@ std::string to_html(const Scene& scene, const Plan& plan, const std::vector<std:
   const std::size_t title = page.find(title_mark), data = page.find(data_mark);
   if (title == page.npos || data == page.npos || data < title) throw std::logic_error("player page without its marks");
   std::string text(page.substr(0, title));
-  text += xml_escape(title_of(plan));
+  text += xml_escape(title_of(plan, !faults.empty()));
   text += page.substr(title + title_mark.size(), data - title - title_mark.size());
   text += player_data(scene, plan, faults);
   return text.append(page.substr(data + data_mark.size()));

@@ -62,8 +62,6 @@ class PlanPicture {
  private:
   bool has_weakest() const { return weakest_.index >= 0 && !std::isinf(weakest_.sigma); }
 
-  std::string title() const { return title_of(plan_) + (faults_.empty() ? "" : " as stated"); }
-
   std::string subtitle() const {
     if (!faults_.empty())
       return fmt::format("REFUSED by the verifier, {} fault{}: {}", faults_.size(), faults_.size() == 1 ? "" : "s",
@@ -77,7 +75,7 @@ class PlanPicture {
   }
 
   void heading() {
-    canvas_.text({30, 36}, title(), {.size = 20, .bold = true});
+    canvas_.text({30, 36}, title_of(plan_, !faults_.empty()), {.size = 20, .bold = true});
     canvas_.text({30, 58}, subtitle(),
                  {.size = 13, .colour = faults_.empty() ? faint : alarm, .bold = !faults_.empty()});
     const double metres = round_length(160 / page_.scale);

@@ -32,11 +32,11 @@ std::string feet_in_words(const std::vector<int>& legs) {
 
 }  // namespace
 
-std::string title_of(const Plan& plan) {
+std::string title_of(const Plan& plan, bool refused) {
   switch (plan.status) {
     case Status::solved:
-      return fmt::format("{}: {} step{}, safety factor {}", plan.scene, plan.steps(), plan.steps() == 1 ? "" : "s",
-                         factor_in_words(plan.safety_factor));
+      return fmt::format("{}: {} step{}, safety factor {}{}", plan.scene, plan.steps(), plan.steps() == 1 ? "" : "s",
+                         factor_in_words(plan.safety_factor), refused ? " as stated" : "");
     case Status::no_plan_found: return plan.scene + ": no plan found";
     case Status::infeasible: return plan.scene + ": infeasible";
   }

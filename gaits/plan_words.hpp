@@ -9,7 +9,8 @@
 namespace surefoot::gaits {
 
 /// "stairs-up: 9 steps, safety factor 1.11", "gap: no plan found".
-std::string title_of(const Plan& plan);
+/// "... as stated" where the verifier refuses the plan.
+std::string title_of(const Plan& plan, bool refused = false);
 
 /// What a limit means: ("UF", {0, 2}) -> "foot 1 slides along +t while foot 3 breaks away". `legs` (0..2) are the
 /// planted legs in increasing order, one per letter of a mode.

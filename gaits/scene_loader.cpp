@@ -184,6 +184,8 @@ Scene read_scene(const Node& root, const std::string& file) {
   root.entries("scene");
   if (root.find("stances") && root.find("transfers"))
     root.fail("scene: this is a plan; expected a scene (surefoot check takes SCENE, then PLAN)");
+  if (root.find("contacts"))
+    root.fail("scene: this is a posture; expected a scene (surefoot region takes one with --posture)");
   if (const Node* version = root.find("surefoot")) check_version(*version);  // of another one nothing else can be said
   root.allow_only({"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal", "search"},
                   "scene");

@@ -207,7 +207,7 @@ std::string Explainer::gap_words() const {
   }
   if (gap_ > 2 * scene_.robot.reach_max && std::isfinite(gap_))
     return fmt::format("no support pair within reach {} spans the gap of {} m", reach, number(gap_));
-  return fmt::format("no transfers with all feet within reach {} of the COM span the gap", reach);
+  return fmt::format("no steps lead across the gap with all feet within reach {} of the COM", reach);
 }
 
 std::string Explainer::rule_words(const Rules& rules) const {
@@ -229,7 +229,7 @@ std::string Explainer::rule_words(const Rules& rules) const {
     case Obstacle::goal: return fmt::format("no COM within reach {} of two feet {}", reach, all);
     case Obstacle::barrier: break;
   }
-  return fmt::format("no transfers with all feet within reach {} of a COM that {} lead across", reach, all);
+  return fmt::format("no steps lead across with all feet within reach {} of a COM that {}", reach, all);
 }
 
 }  // namespace

@@ -11,8 +11,11 @@ using terrain::Document;
 using terrain::InputError;
 using terrain::Node;
 
-Document read_document(const std::string& path) {
-  return path == "-" ? Document::parse(read_stdin(), "<stdin>") : Document::read_file(path);
+Document read_posture_document(const std::string& path, const char* for_scenes) {
+  Document document = path == "-" ? Document::parse(read_stdin(), "<stdin>") : Document::read_file(path);
+  if (const Node& root = document.root(); root.find("terrain") && root.find("robot"))
+    root.fail(fmt::format("posture: this is a scene; expected a posture ({})", for_scenes));
+  return document;
 }
 
 Eigen::Vector2d read_point(const Node& node, const char* what) {

@@ -9,8 +9,8 @@
 
 namespace surefoot::planner {
 
-/// A file, "-" for stdin.
-terrain::Document read_document(const std::string& path);
+/// A file, "-" for stdin. A scene is refused, with a word on how the command takes those.
+terrain::Document read_posture_document(const std::string& path, const char* for_scenes);
 /// `contacts` of a posture: `least` to `most` of them.
 std::vector<stability::Contact> read_contacts(const terrain::Node& root, std::size_t least, std::size_t most);
 /// A coefficient of restitution, between 0 and 1; `place` is where it was given.

@@ -43,7 +43,7 @@ void read_scene(const RegionArguments& arguments, Subject& subject) {
 /// A query line (formats.md) whose `com`, if it is there, is only marked.
 void read_posture(const RegionArguments& arguments, Subject& subject) {
   const std::string& path = *arguments.posture;
-  const Document document = read_document(path);
+  const Document document = read_posture_document(path, "surefoot region takes a scene without --posture");
   const Node& root = document.root();
   root.allow_only({"contacts", "com", "rho", "kappa", "nu", "restitution"}, "posture");
   subject.figure.contacts = read_contacts(root, 1, 3);

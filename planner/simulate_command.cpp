@@ -49,7 +49,7 @@ double positive(double value, const char* option) {
 }
 
 void read_file(const std::string& path, Subject& subject) {
-  const terrain::Document document = read_document(path);
+  const terrain::Document document = read_posture_document(path, "surefoot simulate takes a scene with --scene");
   const Node& root = document.root();
   root.allow_only({"contacts", "com", "rho", "kappa", "nu", "restitution", "gravity", "q", "q_rate", "heights",
                    "heights_rate"},

@@ -111,7 +111,9 @@ TEST_CASE("Improper input is refused on one line with its place", "[region]") {
     CHECK(outcome.err.find(words) != std::string::npos);
   };
   refused("", "expected a scene file or --posture");
+  refused("--posture " SUREFOOT_MAPS "/vee.yaml", "takes a scene without --posture");
   refused(scene + " --posture level.json", "one of them");
+  refused("level.json", "takes one with --posture");
   refused("--posture missing.json", "missing.json");
   refused("--posture typo.json", "typo.json:1:");
   refused("--posture zero.json", "may not be zero");

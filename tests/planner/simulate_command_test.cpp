@@ -80,6 +80,7 @@ TEST_CASE("Improper input to simulate ends with one line and status 2", "[simula
   } cases[] = {
       {"simulate", "expected a posture file"},
       {"simulate missing.json", "missing.json"},
+      {"simulate " SUREFOOT_MAPS "/vee.yaml", "takes a scene with --scene"},
       {"simulate ball.json", "restitution is missing"},
       {"simulate ball.json --restitution 1", "between 0 and 1"},
       {"simulate vee.json --restitution -0.1", "between 0 and 1"},

@@ -276,6 +276,7 @@ class Run {
       case slips: return tell(Kind::slips, i);
       case reaches: state_.h[i] = 0; return tell(Kind::reaches, i);
       case leaves: return end(HybridRun::Outcome::left);
+      case work:
       case time: return end(HybridRun::Outcome::undecided);
     }
   }

@@ -61,7 +61,7 @@ struct HybridRun {
     rest,          ///< the body stands still, balanced [theory section 3]
     left,          ///< it left the neighbourhood
     inconsistent,  ///< no contact mode is consistent
-    undecided      ///< the time limit or most_collisions was reached
+    undecided      ///< the time limit, most_collisions, or most_steps of a motion (hybrid_motion.hpp) was reached
   } outcome = Outcome::undecided;
   double time = 0;  ///< [s] at the end
   BodyState state;  ///< at the end

@@ -212,6 +212,8 @@ class DocumentBuilder : public YAML::EventHandler {
 
 namespace {
 
+constexpr std::size_t longest_message = 200;  // characters of the parser's messages, which may quote what it read
+
 /// A message of the parser without the raw byte that it may end with (of an escape, or its mark for the end of the
 /// file).
 std::string readable(std::string message) {
@@ -253,7 +255,7 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
     if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());
     const YAML::Mark mark = error.mark.is_null() ? builder.last_mark() : error.mark;
     throw source.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column),
-                       "not valid YAML: " + readable(error.msg));
+                       "not valid YAML: " + shown(readable(error.msg), longest_message));
   }
   if (!builder.complete()) throw source.error(0, 0, "nothing but white space or comments");
   if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());

@@ -17,7 +17,7 @@ using namespace surefoot::gaits::testing;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
 
 /// Another terrain: plans made for scene_on(level_ground_and()) find chain 1 missing and their ground lower.
 Scene elsewhere() { return scene_on({chain({{100, -3}, {101, -3}})}); }
@@ -37,8 +37,8 @@ TEST_CASE("A terrain is asked for what it has not", "[misuse]") {
     foot.chain = none;
     CHECK_THROWS_AS(ground.leg_is_free({0, 0.5}, foot), std::out_of_range);
   }
-  for (const double s : {nan, inf, -inf, -1.0, 11.0}) CHECK_FALSE(ground.foothold_at(0, s));
-  for (const double x : {nan, inf, -6.0}) CHECK(ground.footholds_at_x(x).empty());
+  for (const double s : {no_number, inf, -inf, -1.0, 11.0}) CHECK_FALSE(ground.foothold_at(0, s));
+  for (const double x : {no_number, inf, -6.0}) CHECK(ground.footholds_at_x(x).empty());
 }
 
 TEST_CASE("Rules are asked with feet and legs that there are not", "[misuse]") {
@@ -97,14 +97,14 @@ TEST_CASE("Points that are not finite stop a build with assertions", "[misuse]")
   const Scene scene = scene_on(level_ground_and());
   const auto& ground = scene.terrain;
   const Point good(0, 0.5);
-  for (const Point& bad : {Point(nan, 0), Point(0, inf)}) {
+  for (const Point& bad : {Point(no_number, 0), Point(0, inf)}) {
     const std::vector<std::function<void()>> calls{[&] { ground.distance(bad, 1); },
                                                    [&] { ground.distance(good, bad, 1); },
-                                                   [&] { ground.distance(good, nan); },
+                                                   [&] { ground.distance(good, no_number); },
                                                    [&] { ground.blocks(bad, good); },
                                                    [&] { ground.leg_is_free(bad, foot_at(scene, 5)); },
                                                    [&] { ground.stretches_within(bad, 0, 1); },
-                                                   [&] { ground.stretches_within(good, nan, 1); },
+                                                   [&] { ground.stretches_within(good, no_number, 1); },
                                                    [&] {
                                                      ground.sector_is_free(bad, 1, {0, 1}, {1, 0});
                                                    },

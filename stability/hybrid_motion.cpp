@@ -110,7 +110,8 @@ class Motion {
         if (scale > 0) worst = std::max(worst, std::abs(error[k]) / (tolerance * scale));
       }
       const double factor = safety * std::pow(std::max(worst, 1e-10), -0.125), taken = s;
-      if (worst <= 1 || ++tried >= most_steps) {
+      tried += worst <= 1 ? 1 : refused_step;
+      if (worst <= 1 || tried >= most_steps) {
         y = to;
         s *= std::clamp(factor, 1.0, most_factor);
         return taken;
@@ -160,7 +161,7 @@ MotionEnd move_in_mode(const HybridBody& body, BodyState& state, const ContactMo
       return {MotionEnd::Cause::time, 0, time};
     }
     const Values from = y;
-    if (++tried >= most_steps) return {MotionEnd::Cause::work, 0, time};
+    if (tried >= most_steps) return {MotionEnd::Cause::work, 0, time};
     const double taken = motion.advance(y, s, tried);
     MotionEnd end;
     double first = taken + 1;

@@ -22,6 +22,9 @@ struct TextOptions {
 /// reach.
 std::string to_text(const Scene& scene, const Plan& plan, const TextOptions& options = {});
 
+/// What `explain` adds to the table: how far was searched, what limits each step, what was left out.
+std::string explanation(const Scene& scene, const Plan& plan);
+
 /// One line per stance and transfer; numbers in their shortest form that reads back to the same double. Legs are 1..3.
 /// Bytes that are not UTF-8 become U+FFFD. Throws std::invalid_argument if a number is not finite (safety factors may
 /// be infinite: "inf").
@@ -29,8 +32,9 @@ std::string to_json(const Plan& plan);
 std::string to_yaml(const Plan& plan);  ///< the same tree, valid for readers of YAML 1.1 and 1.2
 
 /// A self-contained drawing without scripts: terrain, feet, legs, COM path, R_SS(W) of each stance within reach. Long
-/// journeys are broken into rows like the lines of a page.
-std::string to_svg(const Scene& scene, const Plan& plan);
+/// journeys are broken into rows like the lines of a page. `faults`: what the verifier has against the plan, one line
+/// each; the heading says so.
+std::string to_svg(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults = {});
 
 /// A self-contained page that plays the gait in a browser, without network: each step with the motion that the rules
 /// check (lift-off, turn of the shortened leg about the COM, touch-down, COM on its line), the region of COMs that

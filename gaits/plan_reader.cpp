@@ -132,6 +132,8 @@ void check_version(const Node& root) {
 Plan plan(const Node& root) {
   constexpr const char* what = "plan";
   root.entries(what);
+  if (root.find("terrain") && root.find("robot"))
+    root.fail("plan: this is a scene; expected a plan (surefoot check takes SCENE, then PLAN)");
   root.allow_only({"surefoot", "scene", "status", "reason", "planner", "seed", "stances", "transfers", "safety_factor",
                    "safety_factor_before_refinement", "steps", "time_s", "resolution", "left_out"},
                   what);
@@ -158,16 +160,27 @@ Plan plan(const Node& root) {
   return result;
 }
 
-}  // namespace
-
-Plan read_plan(const std::string& path) {
-  const terrain::Document document = terrain::Document::read_file(path);
-  return plan(document.root());
+/// The first line is that of to_text.
+bool is_printed_for_people(std::string_view text) {
+  const std::string_view first = text.substr(0, text.find('\n'));
+  if (first.starts_with('{')) return false;
+  return first.find(": solved in ") != std::string_view::npos ||
+         first.find(": no plan found") != std::string_view::npos ||
+         first.find(": infeasible") != std::string_view::npos;
 }
 
+}  // namespace
+
+Plan read_plan(const std::string& path) { return parse_plan(terrain::read_text(path), path); }
+
 Plan parse_plan(std::string_view text, const std::string& name) {
-  const terrain::Document document = terrain::Document::parse(text, name);
-  return plan(document.root());
+  try {
+    const terrain::Document document = terrain::Document::parse(text, name);
+    return plan(document.root());
+  } catch (const terrain::InputError&) {
+    if (!is_printed_for_people(text)) throw;
+  }
+  throw terrain::InputError(name + ":1:1: plan: this is a plan printed as text; write it with -o plan.json", 1, 1);
 }
 
 }  // namespace surefoot::gaits

@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 // Okabe and Ito's palette, told apart by colour-blind eyes.
 constexpr std::array<std::string_view, leg_count> leg_colour{"#0072b2", "#d55e00", "#009e73"};
 constexpr std::string_view support_colour = "#cc79a7", goal_colour = "#f0e442", weak_colour = "#e69f00", ink = "#222",
-                           faint = "#666";
+                           faint = "#666", alarm = "#c00";
 constexpr Paint support_fill{.fill = support_colour, .opacity = 0.1};
 constexpr Paint support_edge{.stroke = support_colour, .width = 0.8, .opacity = 0.45};
 constexpr Paint com_line{.stroke = ink, .width = 1.6};
@@ -48,8 +48,8 @@ class Places {
 
 class PlanPicture {
  public:
-  PlanPicture(const Scene& scene, const Plan& plan)
-      : scene_(scene), plan_(plan), terrain_(scene.terrain), weakest_(weakest_place(plan)),
+  PlanPicture(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults)
+      : scene_(scene), plan_(plan), faults_(faults), terrain_(scene.terrain), weakest_(weakest_place(plan)),
         page_(lay_out(scene, plan, top)), canvas_(page_.width, page_.height, title_of(plan)) {}
 
   std::string draw() {
@@ -62,7 +62,12 @@ class PlanPicture {
  private:
   bool has_weakest() const { return weakest_.index >= 0 && !std::isinf(weakest_.sigma); }
 
+  std::string title() const { return title_of(plan_) + (faults_.empty() ? "" : " as stated"); }
+
   std::string subtitle() const {
+    if (!faults_.empty())
+      return fmt::format("REFUSED by the verifier, {} fault{}: {}", faults_.size(), faults_.size() == 1 ? "" : "s",
+                         faults_.front());
     if (!plan_.reason.empty()) return plan_.reason;
     if (!has_weakest() || weakest_.limit.empty()) return "";
     const Stance& stance = plan_.stances[weakest_.index];
@@ -72,8 +77,9 @@ class PlanPicture {
   }
 
   void heading() {
-    canvas_.text({30, 36}, title_of(plan_), {.size = 20, .bold = true});
-    canvas_.text({30, 58}, subtitle(), {.size = 13, .colour = faint});
+    canvas_.text({30, 36}, title(), {.size = 20, .bold = true});
+    canvas_.text({30, 58}, subtitle(),
+                 {.size = 13, .colour = faults_.empty() ? faint : alarm, .bold = !faults_.empty()});
     const double metres = round_length(160 / page_.scale);
     const double left = page_.width - 30 - metres * page_.scale, right = page_.width - 30;
     canvas_.line({left, 40}, {right, 40}, com_line);
@@ -257,7 +263,8 @@ class PlanPicture {
       canvas_.circle(at, dot_radius, com_dot, tooltip(k));
       const Vector2d above = at - Vector2d(0, 8);
       if (places.take(above, 15))
-        canvas_.text(above, std::to_string(k + 1), {.size = 10, .anchor = "middle", .halo = true});
+        canvas_.text(above, k == plan_.steps() ? "end" : std::to_string(k + 1),
+                     {.size = 10, .anchor = "middle", .halo = true});
     }
   }
 
@@ -287,6 +294,7 @@ class PlanPicture {
 
   const Scene& scene_;
   const Plan& plan_;
+  const std::vector<std::string>& faults_;
   TerrainPicture terrain_;
   WeakestPlace weakest_;
   Page page_;
@@ -295,6 +303,8 @@ class PlanPicture {
 
 }  // namespace
 
-std::string to_svg(const Scene& scene, const Plan& plan) { return PlanPicture(scene, plan).draw(); }
+std::string to_svg(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults) {
+  return PlanPicture(scene, plan, faults).draw();
+}
 
 }  // namespace surefoot::gaits

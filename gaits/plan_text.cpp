@@ -46,6 +46,8 @@ class Report {
     return text + left_out();
   }
 
+  std::string explanation() const { return resolution() + limits() + left_out(); }
+
  private:
   std::string heading() const {
     static const std::map<Status, const char*> words{{Status::solved, "solved"},
@@ -56,8 +58,15 @@ class Report {
                        paint(status, plan_.status == Status::solved ? green : red, options_.colour);
     if (plan_.status == Status::solved)
       text += fmt::format(" in {} step{}", plan_.steps(), plan_.steps() == 1 ? "" : "s");
-    if (!plan_.reason.empty()) text += " - " + printable(plan_.reason);
-    return text + "\n";
+    return text + reason(status) + "\n";
+  }
+
+  /// Clause by clause; the status is not said twice.
+  std::string reason(const std::string& status) const {
+    std::string text = printable(plan_.reason);
+    if (text.empty()) return text;
+    for (std::size_t at = 0; (at = text.find("; ", at)) != std::string::npos;) text.replace(at, 2, "\n  ");
+    return text.starts_with(status + " ") ? text.substr(status.size()) : " - " + text;
   }
 
   std::string point(const Eigen::Vector2d& p) const {
@@ -157,6 +166,7 @@ class Report {
         text += fmt::format(", {} before refinement", factor_in_words(*plan_.safety_factor_before_refinement));
       text += "\n";
     }
+    if (plan_.status == Status::infeasible) return text + fmt::format("proven in {:.3f} s\n", plan_.time_s);
     return text + fmt::format("planner {}, seed {}, {:.3f} s\n", or_dash(plan_.planner), plan_.seed, plan_.time_s) +
            resolution();
   }
@@ -245,6 +255,11 @@ class Report {
 
 std::string to_text(const Scene& scene, const Plan& plan, const TextOptions& options) {
   return Report(scene, plan, options).print();
+}
+
+std::string explanation(const Scene& scene, const Plan& plan) {
+  const TextOptions options{.explain = true};
+  return Report(scene, plan, options).explanation();
 }
 
 }  // namespace surefoot::gaits

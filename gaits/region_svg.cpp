@@ -86,6 +86,7 @@ class Picture {
     if (region_.window)
       more = fmt::format("Clipped to x {:.4g} .. {:.4g}, y {:.4g} .. {:.4g} m.  ", region_.window->min().x(),
                          region_.window->max().x(), region_.window->min().y(), region_.window->max().y());
+    else if (figure_.terrain != nullptr) more = "COMs below the ground or out of reach count too.  ";
     if (!region_.empty() && !window_.contains(bounds_of(region_.equilibrium))) more += "Goes on beyond the picture.";
     canvas_->text({left, 98}, more, {.size = 12, .colour = faint});
   }
@@ -218,7 +219,7 @@ class Picture {
       canvas_->rectangle({x, y - 11}, 20, 14, {.fill = shade(k), .stroke = "#777", .width = 0.6});
       canvas_->text({x + 28, y}, std::to_string(k + 1), {.bold = true});
       std::string modes;
-      for (const auto& mode : cell.modes) modes += (modes.empty() ? "" : " ") + mode.name();
+      for (const auto& mode : cell.modes) modes.append(modes.empty() ? "" : " ").append(mode.name());
       canvas_->text({x + 52, y}, modes.empty() ? robust_name(figure_.box) + ": stays at rest" : modes,
                     {.size = modes.size() > 34 ? 9.0 : 12.0, .bold = modes.empty()});
       canvas_->text({x + 52, y + 14}, fmt::format("{:.4g} m^2, {}", cell.area, share(cell.area)),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "gaits/foothold_words.hpp"
 #include "gaits/scene.hpp"
 #include "gaits/start_loader.hpp"
 #include "terrain/terrain_loader.hpp"
@@ -17,6 +18,11 @@ namespace {
 using terrain::Node;
 
 constexpr std::int64_t format_version = 1;
+
+// Advice where a key is missing.
+constexpr const char* a_version = "; add \"surefoot: 1\" as the first line";
+constexpr const char* no_disturbance = "; for none add \"disturbance: {kappa: 0, nu: 0}\"";
+constexpr const char* a_goal = "; add such as \"goal: {com_x: [from, to]}\"";
 
 std::string one_of(const Node& node, std::string_view what, const std::vector<std::string>& words) {
   std::string word = node.text(what);
@@ -67,6 +73,7 @@ Robot read_robot(const Node& node) {
 }
 
 stability::DisturbanceBox read_disturbance(const Node& node) {
+  if (node.kind() != Node::Kind::map) node.refuse("disturbance", "{kappa: ..., nu: ...}");
   node.allow_only({"kappa", "nu"}, "disturbance");
   const auto extent = [&node](std::string_view key) {
     const Node& value = node.require(key, "disturbance");
@@ -97,6 +104,7 @@ struct Stability {
 };
 
 Stability read_stability(const Node& node) {
+  if (node.kind() != Node::Kind::map) node.refuse("stability", "{criterion: robust} or another criterion");
   const bool known = node.allow_only({"criterion", "restitution"}, "stability");
   const Node *chosen = node.find("criterion"), *e = node.find("restitution");
   Stability stability;
@@ -115,7 +123,8 @@ Stability read_stability(const Node& node) {
 std::optional<std::pair<double, double>> read_interval(const Node& goal, std::string_view key) {
   const Node* node = goal.find(key);
   if (!node) return std::nullopt;
-  const auto& ends = node->items(std::string(key) + " [least, greatest]", 2);
+  if (node->kind() != Node::Kind::sequence) node->refuse(key, "[from, to], the least first");
+  const auto& ends = node->items(std::string(key) + " [from, to]", 2);
   std::pair<double, double> interval;
   node->attempt_each([&] { interval.first = ends[0].number(key); }, [&] { interval.second = ends[1].number(key); });
   if (interval.first > interval.second) {
@@ -124,14 +133,17 @@ std::optional<std::pair<double, double>> read_interval(const Node& goal, std::st
   return interval;
 }
 
+constexpr const char* goal_form = "{com_x: [from, to]}, com_y or both";
+
 Goal read_goal(const Node& node) {
+  if (node.kind() != Node::Kind::map) node.refuse("goal", goal_form);
   const bool known = node.allow_only({"com_x", "com_y"}, "goal");
   Goal goal;
   node.attempt_each([&] { goal.com_x = read_interval(node, "com_x"); },
                     [&] { goal.com_y = read_interval(node, "com_y"); });
   if (goal.com_x || goal.com_y) return goal;
   if (!known) throw terrain::AlreadyTold();
-  node.fail("goal: nothing is given; expected com_x, com_y or both");
+  node.fail(fmt::format("goal: nothing is given; expected {}", goal_form));
 }
 
 SearchDefaults read_search(const Node& node) {
@@ -154,16 +166,31 @@ SearchDefaults read_search(const Node& node) {
   return search;
 }
 
+/// Start feet that all hang below their ground: said at the chain, which was most likely given the wrong way round.
+void check_sides(const Node& terrain, const Start& start) {
+  const std::optional<int> chain = chain_above_start(start);
+  if (!chain) return;
+  terrain.require("chains", "terrain")
+      .items("chains")[static_cast<std::size_t>(*chain)]
+      .require("vertices", "chain")
+      .fail(
+          fmt::format("vertices: chain {} runs from right to left under the start feet, so free space is below it and "
+                      "no foot can push up; reverse its vertices?",
+                      *chain));
+}
+
 /// Throws AlreadyTold rather than return a scene of which a fault has been kept.
 Scene read_scene(const Node& root, const std::string& file) {
   root.entries("scene");
+  if (root.find("stances") && root.find("transfers"))
+    root.fail("scene: this is a plan; expected a scene (surefoot check takes SCENE, then PLAN)");
   if (const Node* version = root.find("surefoot")) check_version(*version);  // of another one nothing else can be said
   root.allow_only({"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal", "search"},
                   "scene");
-  root.attempt([&] { root.require("surefoot", "scene"); });
+  root.attempt([&] { root.require("surefoot", "scene", a_version); });
   auto ground = root.attempt([&] { return terrain::load_terrain(root.require("terrain", "scene")); });
   const auto robot = root.attempt([&] { return read_robot(root.require("robot", "scene")); });
-  const auto box = root.attempt([&] { return read_disturbance(root.require("disturbance", "scene")); });
+  const auto box = root.attempt([&] { return read_disturbance(root.require("disturbance", "scene", no_disturbance)); });
   const Node *chosen_stability = root.find("stability"), *chosen_search = root.find("search"),
              *name = root.find("name");
   const auto stability =
@@ -171,7 +198,8 @@ Scene read_scene(const Node& root, const std::string& file) {
   auto start = root.attempt([&] {
     return read_start(root.require("start", "scene"), ground ? &*ground : nullptr, robot ? &*robot : nullptr);
   });
-  const auto goal = root.attempt([&] { return read_goal(root.require("goal", "scene")); });
+  if (ground && start) root.attempt([&] { check_sides(root.require("terrain", "scene"), *start); });
+  const auto goal = root.attempt([&] { return read_goal(root.require("goal", "scene", a_goal)); });
   auto search = root.attempt([&] { return chosen_search ? read_search(*chosen_search) : SearchDefaults(); });
   auto title = root.attempt([&] { return name ? name->text("name") : std::filesystem::path(file).stem().string(); });
   if (root.faults() && root.faults()->count() > 0) throw terrain::AlreadyTold();

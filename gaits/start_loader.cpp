@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gaits/foothold_words.hpp"
 #include "gaits/rules.hpp"
 
 namespace surefoot::gaits {
@@ -49,12 +50,14 @@ Foothold read_foot_by_arc_length(const Node& node, const Terrain* ground) {
   node.attempt_each([&] { chain = chain_node.integer("chain"); }, [&] { s = s_node.number("s"); });
   if (!ground) throw terrain::AlreadyTold();
   if (chain < 0 || chain >= ground->chain_count()) {
-    chain_node.fail(fmt::format("chain: {} does not exist; expected 0 to {}", chain, ground->chain_count() - 1));
+    const int last = ground->chain_count() - 1;
+    chain_node.fail(fmt::format("chain: {} does not exist; {}", chain,
+                                last == 0 ? "the only chain is 0" : fmt::format("chains are 0 to {}", last)));
   }
   const int c = static_cast<int>(chain);
   const double length = ground->chain_length(c);
   if (s < 0 || s > length) {
-    s_node.fail(fmt::format("s: {} is outside chain {}; expected 0 to {}", s, c, length));
+    s_node.fail(fmt::format("s: {} is outside chain {}; expected 0 to {:.6g}", s, c, length));
   }
   if (auto foothold = ground->foothold_at(c, s)) return *foothold;
   const terrain::Segment* segment = segment_around(*ground, c, s);
@@ -71,21 +74,25 @@ Foothold read_foot_by_x(const Node& node, const Terrain* ground) {
   if (!ground) throw terrain::AlreadyTold();
   const std::vector<Foothold> found = ground->footholds_at_x(x);
   if (found.size() == 1) return found.front();
-  if (found.empty())
-    x_node.fail(
-        fmt::format("x: there is no foothold at {}; expected a point inside a segment where a foot may stand", x));
+  if (found.empty()) x_node.fail(no_foothold_at_x(*ground, x));
   std::vector<std::string> list;
   list.reserve(found.size());
   for (const Foothold& foothold : found) {
-    list.push_back(fmt::format("{{chain: {}, s: {}}}", foothold.chain, foothold.s));
+    list.push_back(fmt::format("{{chain: {}, s: {:.9g}}}{}", foothold.chain, foothold.s,
+                               foothold.normal.y() < 0 ? " (a ceiling)" : ""));
   }
   x_node.fail(fmt::format("x: {} is ambiguous; expected one of: {}", x, fmt::join(list, ", ")));
 }
 
+constexpr const char* foot_form = "{x: number}, {chain: number, s: number} or null";
+
 std::optional<Foothold> read_foot(const Node& node, const Terrain* ground) {
   if (node.is_null()) return std::nullopt;
+  if (node.kind() != Node::Kind::map) node.refuse("foot", foot_form);
+  if (const Node* y = node.find("y"); y && node.find("x"))
+    y->fail("y: the height of a foot follows from the terrain; expected {x} alone, or {chain, s}");
   if (!node.allow_only({"x", "chain", "s"}, "foot")) throw terrain::AlreadyTold();
-  if (node.entries("foot").empty()) node.fail("foot: nothing is given; expected {x}, {chain, s} or null");
+  if (node.entries("foot").empty()) node.fail(fmt::format("foot: nothing is given; expected {}", foot_form));
   if (!node.find("x")) return read_foot_by_arc_length(node, ground);
   if (node.find("chain") || node.find("s"))
     node.fail("foot: x is given besides chain and s; expected {x} or {chain, s}");
@@ -166,7 +173,9 @@ Start read_start(const Node& node, const Terrain* ground, const Robot* robot) {
   node.attempt_each(
       [&] {
         const Node& feet = node.require("feet", "start");
-        legs = &feet.items("feet", leg_count);
+        if (feet.kind() != Node::Kind::sequence || feet.items("feet").size() != leg_count)
+          feet.refuse("feet", fmt::format("a list of {}, one for each leg (null: in the air)", leg_count));
+        legs = &feet.items("feet");
         read_feet(feet, *legs, ground, start);
       },
       [&] {

@@ -43,6 +43,15 @@ std::string canned_file(const std::vector<CannedScene>& canned, const std::strin
   return found == canned.end() ? "" : found->file;
 }
 
+/// "stairs_down or stairs_up" for "stairs"; "" if no canned scene begins so, or too many do.
+std::string begun_with(const std::string& word, const std::vector<CannedScene>& canned) {
+  constexpr std::size_t least_letters = 3, most = 4;
+  std::vector<std::string> names;
+  for (const CannedScene& scene : canned)
+    if (word.size() >= least_letters && scene.name.starts_with(word)) names.push_back(scene.name);
+  return names.size() > most ? "" : fmt::format("{}", fmt::join(names, " or "));
+}
+
 /// What a path that leads nowhere may have meant, as it would have to be given: a scene in the same directory, one in
 /// maps/, or a canned one; of equal stem, else of the nearest. "" if there is none.
 std::string scene_meant(const fs::path& path, const std::vector<CannedScene>& canned) {
@@ -61,7 +70,7 @@ std::string scene_meant(const fs::path& path, const std::vector<CannedScene>& ca
     const std::string near = terrain::near_miss(stem, stems);
     found = near.empty() ? stems.end() : std::find(stems.begin(), stems.end(), near);
   }
-  if (found == stems.end()) return {};
+  if (found == stems.end()) return begun_with(stem, canned);
   return fs::path(scenes[static_cast<std::size_t>(found - stems.begin())]).lexically_normal();
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,25 @@
 #include "planner/figure_outputs.hpp"
 
 namespace surefoot::planner {
+
+namespace {
+
+/// "does not hold: 35 faults in 3 of 5 stances and 3 of 4 transfers".
+std::string verdict(const gaits::Verification& verification, const gaits::Plan& plan) {
+  if (verification.holds())
+    return fmt::format("holds: {} stances, {} transfers, least safety factor {:.6g}", verification.stances,
+                       verification.transfers, plan.safety_factor);
+  std::set<std::string> stances, transfers;
+  for (const gaits::Fault& fault : verification.faults)
+    if (fault.place.starts_with("stance")) stances.insert(fault.place);
+    else if (fault.place.starts_with("transfer")) transfers.insert(fault.place);
+  const std::size_t count = verification.faults.size();
+  return fmt::format("does not hold: {} fault{} in {} of {} stances and {} of {} transfers", count,
+                     count == 1 ? "" : "s", stances.size(), plan.stances.size(), transfers.size(),
+                     plan.transfers.size());
+}
+
+}  // namespace
 
 int run_check(const CheckArguments& arguments) {
   if (arguments.scene == "-" && arguments.plan == "-")
@@ -31,12 +51,13 @@ int run_check(const CheckArguments& arguments) {
   std::vector<std::string> faults;
   for (const gaits::Fault& fault : verification.faults)
     faults.push_back(fmt::format("{}: {}: {}", fault.place, gaits::to_string(fault.rule), one_line(fault.message)));
-  if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(scene, plan));
+  if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(scene, plan, faults));
   if (outputs.wants("--html")) outputs.put("--html", gaits::to_html(scene, plan, faults));
   if (!outputs.to_stdout())
-    write_stdout(verification.holds() ? fmt::format("holds: {} stances, {} transfers, least safety factor {:.6g}\n",
-                                                    verification.stances, verification.transfers, plan.safety_factor)
-                                      : fmt::format("{}\n", fmt::join(faults, "\n")));
+    write_stdout(
+        fmt::format("{}{}{}\n", fmt::join(faults, "\n"), faults.empty() ? "" : "\n", verdict(verification, plan)));
+  if (!verification.holds() && plan.scene != scene.name)
+    note(fmt::format("the plan is for a scene named {}, this one is {}", plan.scene, scene.name));
   outputs.commit();
   return verification.holds() ? exit_success : exit_failure;
 }

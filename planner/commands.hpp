@@ -48,6 +48,8 @@ int run_validate(const std::vector<std::string>& scenes);
 gaits::Scene open_scene(const std::string& path);
 /// The same with all faults in the list: nothing if there is any.
 std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults);
+/// A remark on chains that seem to be given the wrong way round; "" if there is none.
+std::string reversed_chain_remark(const gaits::Scene& scene);
 /// All of stdin.
 std::string read_stdin();
 

@@ -102,7 +102,8 @@ CLI::App* add_check(CLI::App& app, CheckArguments& a) {
 
 CLI::App* add_validate(CLI::App& app, Arguments& a) {
   CLI::App* validate = app.add_subcommand("validate", "Say everything that is wrong with scenes, without planning");
-  validate->add_option("SCENE", a.validate_scenes, "scene files (YAML), - for standard input")->required();
+  validate->add_option("SCENE", a.validate_scenes, "scene files (YAML) or canned scenes, - for standard input")
+      ->required();
   validate->footer(
       "One line per fault (file:line:column: what), or one line that says what the scene holds.\n"
       "Exit status: 0 all scenes are in order, 2 one is not, or bad usage.\n"
@@ -202,6 +203,10 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
                        meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
   }
   std::string message = fault.what();
+  const std::string unconverted = "Could not convert: ";  // "Could not convert: --time-limit = 1min"
+  if (const auto equals = message.find(" = "); message.starts_with(unconverted) && equals != std::string::npos)
+    return fmt::format("{}: found {}, expected a number",
+                       message.substr(unconverted.size(), equals - unconverted.size()), message.substr(equals + 3));
   const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&fault);
   if (extras == nullptr) return message;
   if (chosen != nullptr)
@@ -213,7 +218,8 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
       if (const std::string meant = near_miss(word, options); !meant.empty())
         return fmt::format("unknown option {}, did you mean {}?", word, meant);
   }
-  return message;
+  return fmt::format("{} (surefoot {}--help tells what is)", message,
+                     chosen == nullptr ? "" : chosen->get_name() + " ");
 }
 
 int run(int count, char** words) {

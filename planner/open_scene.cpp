@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <cstdio>
 
 #include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
+#include "terrain/back_faces.hpp"
 
 namespace surefoot::planner {
 
@@ -13,9 +16,16 @@ constexpr const char* stdin_name = "<stdin>";
 
 std::string read_stdin() { return terrain::read_all(stdin, stdin_name); }
 
+/// Throws the first fault in the order of the file, with the number of the others.
 gaits::Scene open_scene(const std::string& path) {
-  if (path == "-") return gaits::parse_scene(read_stdin(), stdin_name);
-  return gaits::load_scene(scene_file(path));
+  terrain::FaultList faults;
+  std::optional<gaits::Scene> scene = open_scene(path, faults);
+  if (scene) return *std::move(scene);
+  const terrain::InputError first = faults.kept().front();
+  if (faults.count() == 1) throw first;
+  throw terrain::InputError(fmt::format("{} (and {} more: surefoot validate {})", first.what(), faults.count() - 1,
+                                        path),
+                            first.line, first.column);
 }
 
 std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults) {
@@ -26,6 +36,16 @@ std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultLi
     faults.add(fault);
     return std::nullopt;
   }
+}
+
+std::string reversed_chain_remark(const gaits::Scene& scene) {
+  const auto seen = terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max);
+  if (!seen) return "";
+  return fmt::format(
+      "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round? Free space "
+      "is on "
+      "the left of a chain: ground runs from left to right, a ceiling from right to left",
+      seen->chain, seen->from_chain, seen->at.x(), seen->at.y());
 }
 
 }  // namespace surefoot::planner

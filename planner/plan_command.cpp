@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,6 +63,10 @@ SearchOptions search_options(const PlanArguments& arguments, const gaits::Scene&
 std::string output_format(const PlanArguments& arguments) {
   if (arguments.format) return one_of("--format", *arguments.format, {"text", "json", "yaml"});
   const std::string name = arguments.output.value_or("");
+  for (const char* picture : {".svg", ".html"})
+    if (name.ends_with(picture))
+      throw terrain::InputError(
+          fmt::format("-o {}: the plan itself goes there, as text; did you mean --{} {}?", name, picture + 1, name));
   if (name.ends_with(".json")) return "json";
   if (name.ends_with(".yaml") || name.ends_with(".yml")) return "yaml";
   return "text";
@@ -115,24 +120,33 @@ void tell(const gaits::Plan& plan) {
   note(fmt::format("verified: {} stances, {} transfers", plan.stances.size(), plan.transfers.size()));
 }
 
+/// Lines on standard error, where standard output or a file has something else.
+void note_lines(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) note(line);
+}
+
 void deliver(const PlanArguments& arguments, const gaits::Scene& scene, const gaits::Plan& plan,
              FigureOutputs& outputs) {
   const bool colour = !outputs.file("-o") && stdout_takes_colour();
-  outputs.put("-o", written(scene, plan, output_format(arguments), arguments.explain, colour));
+  const std::string format = output_format(arguments);
+  outputs.put("-o", written(scene, plan, format, arguments.explain, colour));
   if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(scene, plan));
   if (outputs.wants("--html")) outputs.put("--html", gaits::to_html(scene, plan));
   outputs.commit(arguments.quiet);
+  if (arguments.explain && format != "text") note_lines(gaits::explanation(scene, plan));
 }
 
-/// For --explain where there is no plan; lines of text.
+/// For --explain where there is no plan; a paragraph of its own.
 std::string what_would_help(const gaits::Scene& scene, SearchOptions options, bool quiet) {
   if (!quiet) show_progress("looking for what would help ...");
   options.progress = [](const std::string&) {};
   const Remedies tried = remedies(scene, options);
   show_progress("");
-  std::string text = "No single change of friction, reach, disturbances or clearance was found to help.\n";
+  std::string text = "\nNo single change of friction, reach, disturbances or clearance was found to help.\n";
   if (!tried.found.empty())
-    text = "Each of these alone would do (with it a plan was found and verified; with less none was found):\n";
+    text = "\nEach of these alone would do (with it a plan was found and verified; with less none was found):\n";
   for (const RemedyFound& remedy : tried.found) text += fmt::format("  {}\n", remedy.words);
   if (tried.cut_off) text += "This was cut off by the time limit: others, or less, might do.\n";
   return text;
@@ -143,12 +157,19 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
                    const FigureOutputs& outputs, const SearchOptions& options) {
   const OutputFile* file = outputs.file("-o");
   const std::string format = output_format(arguments);
+  std::vector<std::string> untouched;
+  for (const char* option : {"-o", "--svg", "--html"})
+    if (const OutputFile* wanted = outputs.file(option)) untouched.push_back(wanted->path());
   if (!file) write_stdout(written(scene, plan, format, arguments.explain, stdout_takes_colour()));
-  else
-    note(fmt::format("{}{}{}; {} is not written", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ",
-                     plan.reason, file->path()));
-  if (!file && arguments.explain && format == "text" && !options.interrupted())
-    write_stdout("\n" + what_would_help(scene, options, arguments.quiet));
+  else note(fmt::format("{}{}{}", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ", plan.reason));
+  if (!untouched.empty() && !(arguments.quiet && !file))
+    note(fmt::format("{} {} not written", fmt::join(untouched, ", "), untouched.size() == 1 ? "is" : "are"));
+  if (arguments.explain && !options.interrupted()) {
+    const std::string help = what_would_help(scene, options, arguments.quiet);
+    if (!file && format == "text") write_stdout(help);
+    else note_lines(help);
+  }
+  if (!arguments.explain && !arguments.quiet) note("plan --explain looks for what would help");
   return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
 }
 
@@ -158,6 +179,8 @@ int run_plan(const PlanArguments& arguments) {
   output_format(arguments);  // says what is wrong with it before anything else is done
   const gaits::Scene scene = open_scene(arguments.scene);
   SearchOptions options = search_options(arguments, scene);
+  if (const std::string remark = arguments.quiet ? "" : reversed_chain_remark(scene); !remark.empty())
+    note("remark: " + remark);
   FigureOutputs outputs = open_outputs(arguments);
   if (arguments.verbose)
     note(fmt::format("{}: {} segments, planner {}, seed {}, time limit {} s", scene.name,

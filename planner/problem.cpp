@@ -7,6 +7,8 @@
 
 #include "gaits/rules.hpp"
 #include "planner/com_window.hpp"
+#include "planner/refusals.hpp"
+#include "planner/start_faults.hpp"
 
 namespace surefoot::planner {
 
@@ -31,33 +33,6 @@ double spread(std::uint64_t k, int i) {
   return value - std::floor(value);
 }
 
-std::string legs_of(const gaits::Stance& stance) {
-  std::string text;
-  for (int leg = 0; leg < gaits::leg_count; ++leg)
-    if (stance.feet[leg]) text += (text.empty() ? "" : " and ") + std::to_string(leg + 1);
-  return text;
-}
-
-/// The rule that a first stance breaks, with the numbers.
-std::string explain(const gaits::Scene& scene, const gaits::Stance& stance, Rule rule) {
-  const gaits::Robot& robot = scene.robot;
-  for (int leg = 0; leg < gaits::leg_count; ++leg) {
-    if (!stance.feet[leg]) continue;
-    const double distance = (stance.com - stance.feet[leg]->position).norm();
-    if (rule == Rule::reach && !gaits::within_reach(robot, stance.feet[leg]->position, stance.com, stance.com))
-      return fmt::format("foot {} is {:.6g} m from the COM, reach is [{}, {}] m", leg + 1, distance, robot.reach_min,
-                         robot.reach_max);
-    if (rule == Rule::leg_visibility && !scene.terrain.leg_is_free(stance.com, *stance.feet[leg]))
-      return fmt::format("leg {} cuts the terrain on its way from the COM to its foot", leg + 1);
-  }
-  if (rule == Rule::clearance)
-    return fmt::format("the COM is {:.6g} m from the terrain, clearance is {} m",
-                       scene.terrain.distance(stance.com, 2 * robot.clearance + robot.reach_max), robot.clearance);
-  const auto sigma = gaits::safety_factor(scene, gaits::oracle_of(scene, stance.feet), stance.com);
-  return fmt::format("not stable on feet {}: safety factor {:.4g}, limited by {}; more than 1 is needed",
-                     legs_of(stance), sigma.value, sigma.critical.name());
-}
-
 Node node_of(const gaits::Scene& scene, const gaits::Stance& stance, StepProposals& proposals) {
   Node node{scene.start.feet, 0, stance.com, proposals.next_id()};
   while (stance.feet[node.free_leg]) ++node.free_leg;
@@ -76,44 +51,37 @@ bool has_first_step(StepProposals& proposals, const Node& node, int& led_on, int
   return false;
 }
 
-/// Proof that no COM within reach of two feet balances: limits of reach and balance are drawn out by more than any
-/// rounding, so that a single COM at the very limit is not denied.
-bool no_com_balances(const gaits::Scene& scene, const gaits::Feet& feet, const stability::RobustOracle& oracle) {
-  constexpr double margin = gaits::limit_margin;
-  double extent = scene.robot.reach_max, steepest = 0;
-  for (const auto& foot : feet)
-    if (foot) extent = std::max(extent, foot->position.cwiseAbs().maxCoeff());
-  const auto planes = oracle.equilibrium_half_planes();
-  for (const auto& plane : planes) steepest = std::max(steepest, plane.normal.norm());
-  Polygon left = reach_window(feet, scene.robot.reach_max + margin * extent);
-  for (const auto& plane : planes)
-    left = clip_to_half_plane(left, -plane.normal, plane.offset + margin * extent * steepest);
-  return left.empty();
-}
-
 /// First stances on two given feet with a COM of our choice: the safest few that a first step leads on from, and the
 /// one nearest to the goal.
 void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& choice) {
   const gaits::Scene& scene = proposals.scene();
+  const auto refuse = [&choice](const std::string& fault, bool proven) {
+    choice.fault += (choice.fault.empty() ? "" : "; ") + fault;
+    choice.decided = choice.decided && proven;
+  };
+  if (const std::string slips = friction_fault(scene, stance); !slips.empty()) return refuse(slips, true);
   const auto oracle = gaits::oracle_of(scene, stance.feet);
   const Polygon window = reach_window(stance.feet, proposals.robot().reach_max);
-  const Polygon polygon = window.empty() ? window : oracle.equilibrium_polygon(window);
+  const Polygon polygon =
+      window.empty() ? window : gaits::oracle_of(scene, stance.feet, box_of_stances(scene)).equilibrium_polygon(window);
   if (polygon.empty()) {
-    const bool proven = no_com_balances(scene, stance.feet, oracle);
-    choice.decided = choice.decided && proven;
-    choice.fault +=
-        fmt::format("{}no COM within reach of feet {} {} every disturbance", choice.fault.empty() ? "" : "; ",
-                    legs_of(stance), proven ? "balances" : "was found to balance");
-    return;
+    const BalanceFault fault = balance_fault(scene, stance);
+    return refuse(fault.words, fault.proven);
   }
   const Polygon in_goal = clip_to_goal(polygon, scene.goal);
   std::vector<std::pair<double, Node>> found;
   int led_on = 0;
+  RuleCounts refused{};
   const auto may_stand = [&](const Vector2d& com) {
     stance.com = com;
     const auto& robot = proposals.robot();
-    return gaits::within_reach(robot, stance.feet, com, com) && gaits::is_stable(scene, oracle, com) &&
-           scene.terrain.distance(com, robot.clearance) >= robot.clearance && !gaits::broken_start_rule(scene, stance);
+    std::optional<Rule> broken;
+    if (!gaits::within_reach(robot, stance.feet, com, com)) broken = Rule::reach;
+    else if (!gaits::is_stable(scene, oracle, com)) broken = Rule::stance_stability;
+    else if (scene.terrain.distance(com, robot.clearance) < robot.clearance) broken = Rule::clearance;
+    else broken = gaits::broken_start_rule(scene, stance);
+    if (broken) ++refused[static_cast<std::size_t>(*broken)];
+    return !broken;
   };
   for (int k = in_goal.empty() ? goal_samples : 0; k < goal_samples + com_samples; ++k) {
     if (!may_stand(point_in(k < goal_samples ? in_goal : polygon, spread(k, 0), spread(k, 1)))) continue;
@@ -154,9 +122,10 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   });
   if (nearest != found.end()) choice.nearest.push_back(nearest->second);
   if (found.empty()) {
-    choice.decided = false;
-    choice.fault += fmt::format("{}no stable COM was found for feet {} in {} tries", choice.fault.empty() ? "" : "; ",
-                                legs_of(stance), com_samples);
+    const std::string tried = in_goal.empty() ? "" : fmt::format(" and {} in the goal", goal_samples);
+    refuse(fmt::format("no COM was found to stand on feet {} in {} tries{}, refused by {}", legs_of(stance),
+                       com_samples, tried, shares(refused)),
+           false);
   }
 }
 
@@ -182,14 +151,15 @@ StartChoice choose_start(StepProposals& proposals) {
     if (!start.com) {
       choose_coms(proposals, stance, choice);
     } else if (const auto rule = gaits::broken_start_rule(scene, stance)) {
-      choice.fault += (choice.fault.empty() ? "" : "; ") + explain(scene, stance, *rule);
+      choice.fault += (choice.fault.empty() ? "" : "; ") + broken_rule_words(scene, stance, *rule);
     } else {
       choice.nodes.push_back(node_of(scene, stance, proposals));
     }
   }
   std::stable_partition(choice.nodes.begin(), choice.nodes.end(),
                         [&](const Node& node) { return scene.goal.contains(node.com); });
-  if (!choice.nodes.empty()) choice.fault.clear();
+  if (choice.nodes.empty()) choice.fault += hanging_feet(scene);
+  else choice.fault.clear();
   return choice;
 }
 

@@ -47,7 +47,9 @@ BodyState start_of(const HybridBody& body, const Push& push) {
   BodyState state;
   if (heights || heights_rate) {
     if (body.parallel_normals())
-      throw InputError("heights: the normals of the contacts are parallel and leave the place open, give q and q_rate");
+      throw InputError(
+          "heights: the normals of the contacts are parallel and leave the place open: give --q and --q-rate (in JSON "
+          "q and q_rate)");
     state = body.state_at_heights(heights.value_or(zero), heights_rate.value_or(zero));
   } else {
     state = body.state_at(q.value_or(zero), q_rate.value_or(zero));

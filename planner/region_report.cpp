@@ -56,7 +56,8 @@ void describe_posture(std::string& out, const gaits::RegionFigure& figure) {
     const auto& contact = figure.contacts[k];
     const Eigen::Vector2d n = contact.normal.stableNormalized();
     fmt::format_to(put, "  contact {}  at ({:.6g}, {:.6g}) m, normal ({:.4f}, {:.4f}), friction {:.4g}\n",
-                   figure.contact_names[k], contact.position.x(), contact.position.y(), n.x(), n.y(), contact.friction);
+                   figure.contact_names[k], contact.position.x(), contact.position.y(), n.x() + 0.0, n.y() + 0.0,
+                   contact.friction);  // 0 rather than -0
   }
   const auto& box = figure.box;
   fmt::format_to(put, "  rho {:.6g} m, ", figure.radius_of_gyration);
@@ -94,7 +95,7 @@ void describe_modes(std::string& out, const gaits::RegionFigure& figure, const R
   for (std::size_t k = 0; k < std::min(region.cells.size(), most_cells); ++k) {
     const RegionCell& cell = region.cells[k];
     std::string names;
-    for (const auto& mode : cell.modes) names += (names.empty() ? "" : " ") + mode.name();
+    for (const auto& mode : cell.modes) names.append(names.empty() ? "" : " ").append(mode.name());
     cells.add({{std::to_string(k + 1)},
                {fmt::format("{:.6g} m^2", cell.area)},
                {percent(cell.area, region.equilibrium_area)},
@@ -214,6 +215,8 @@ std::string region_to_text(const gaits::RegionFigure& figure, const Region& regi
   if (region.window)
     fmt::format_to(put, "         clipped to x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g} m\n", region.window->min().x(),
                    region.window->max().x(), region.window->min().y(), region.window->max().y());
+  else if (figure.terrain != nullptr)
+    out += "         COMs below the ground or out of reach count too; --window clips\n";
   if (!region.note.empty()) fmt::format_to(put, "         note: {}\n", region.note);
   describe_modes(out, figure, region);
   if (frictional) describe_frictional(out, *frictional);

@@ -243,7 +243,7 @@ class Search {
 
   std::string came_to(const AnytimeSearch& search) const {
     const Eigen::Vector2d com = search.nearest_com();
-    return fmt::format("; Layers came to ({:.5g}, {:.5g}), {:.4g} m from the goal, {}", com.x(), com.y(),
+    return fmt::format("; Layers came to COM ({:.5g}, {:.5g}), {:.4g} m from the goal; {}", com.x(), com.y(),
                        scene_.goal.distance(com), search.refusals().summary());
   }
 

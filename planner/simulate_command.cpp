@@ -89,8 +89,11 @@ Subject read_subject(const SimulateArguments& a) {
   if (const auto given = triple(a.q_rate, "--q-rate", "vx,vy,omega")) subject.push.q_rate = given;
   if (const auto given = triple(a.heights, "--heights", "h1,h2,theta")) subject.push.heights = given;
   if (const auto given = triple(a.heights_rate, "--heights-rate", "u1,u2,omega")) subject.push.heights_rate = given;
+  const bool lacks_com = !request.com && !a.sample;
   if (request.options.restitution == 0)
-    throw InputError("restitution is missing: expected in the posture or scene, or as --restitution");
+    throw InputError(fmt::format("restitution is missing: expected in the posture or scene, or as --restitution{}",
+                                 lacks_com ? "; so is com, --com x,y" : ""));
+  if (lacks_com) throw InputError("com is missing: expected in the posture, as the scene's start.com, or as --com x,y");
   request.options.time_limit = a.time_limit ? positive(*a.time_limit, "--time-limit") : usual_time_limit;
   if (a.neighbourhood) request.neighbourhood = positive(*a.neighbourhood, "--neighbourhood");
   request.size = a.size ? positive(*a.size, "--size") : usual_size;
@@ -133,8 +136,6 @@ int run_simulate(const SimulateArguments& arguments) {
     outputs.commit();
     return exit_success;
   }
-  if (!request.com)
-    throw InputError("com is missing: expected in the posture, as the scene's start.com, or as --com x,y");
   const HybridBody body(request.contacts, *request.com, request.rho, request.gravity, arguments.linearised);
   const SimulateRecord record = record_run(body, subject);
   if (outputs.wants("--svg")) {

@@ -1,8 +1,10 @@
 // What `surefoot simulate` says of one run in words and in JSON.
 #include <fmt/format.h>
 
-#include <iterator>
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "gaits/motion_svg.hpp"
 #include "gaits/text_table.hpp"
@@ -73,6 +75,57 @@ std::string ending(const HybridBody& body, const SimulateRecord& record) {
   }
 }
 
+/// A line of the table: an event, or several collisions in a row.
+struct Row {
+  double time;
+  std::string what;
+  std::string same;  ///< equal in lines that tell of the same
+  BodyState state;
+};
+
+std::vector<Row> rows_of(const SimulateRecord& record) {
+  std::vector<Row> rows{{0, "start", "start", record.start}};
+  const auto collides = [&](std::size_t k) {
+    return k < record.events.size() && record.events[k].kind == Kind::collision;
+  };
+  for (std::size_t k = 0; k < record.events.size(); ++k) {
+    if (record.events[k].kind == Kind::sample) continue;
+    std::size_t run = 1;
+    for (; collides(k) && collides(k + 1); ++k) ++run;
+    const HybridEvent& last = record.events[k];
+    const std::string what = run > 1 ? fmt::format("{} collisions", run) : gaits::words(last);
+    rows.push_back({last.time, what, run > 1 ? "collisions" : what, last.state});
+  }
+  return rows;
+}
+
+/// Of a round of events that is repeated (a body that rocks from foot to foot) only the first is kept, then one line.
+std::vector<Row> fold_rounds(const std::vector<Row>& rows) {
+  constexpr std::size_t longest = 16, least_repeats = 2;
+  std::vector<Row> folded;
+  for (std::size_t k = 0; k < rows.size();) {
+    std::size_t length = 1, repeats = 0;
+    for (; length <= longest; ++length) {
+      const auto same = [&](std::size_t i) { return i < rows.size() && rows[i].same == rows[i - length].same; };
+      std::size_t end = k + length;
+      while (same(end)) ++end;
+      repeats = (end - k) / length - 1;
+      if (repeats >= least_repeats) break;
+    }
+    if (repeats < least_repeats) {
+      folded.push_back(rows[k++]);
+      continue;
+    }
+    for (std::size_t i = k; i < k + length; ++i) folded.push_back(rows[i]);
+    k += (repeats + 1) * length;
+    const Row& last = rows[k - 1];
+    const std::string what = length == 1 ? fmt::format("... {} times more", repeats)
+                                         : fmt::format("... these {} lines {} times more", length, repeats);
+    folded.push_back({last.time, what, what, last.state});
+  }
+  return folded;
+}
+
 }  // namespace
 
 std::string simulation_to_json(const HybridBody& body, const SimulateRecord& record) {
@@ -116,29 +169,19 @@ std::string simulation_to_text(const HybridBody& body, const SimulateRecord& rec
                    {"", "h1 [m]", TextTable::Align::right},
                    {"", "h2 [m]", TextTable::Align::right},
                    {"", "theta [rad]", TextTable::Align::right}});
-  const auto row = [&](double time, const std::string& what, const BodyState& s) {
-    table.add({{fmt::format("{:.9g}", time)},
-               {what},
+  constexpr std::size_t most_rows = 60;
+  const std::vector<Row> rows = fold_rounds(rows_of(record));
+  for (std::size_t k = 0; k < std::min(rows.size(), most_rows); ++k) {
+    const BodyState& s = rows[k].state;
+    table.add({{fmt::format("{:.9g}", rows[k].time)},
+               {rows[k].what},
                {fmt::format("{:.4g}", s.h[0])},
                {body.contacts() == 2 ? fmt::format("{:.4g}", s.h[1]) : "-"},
                {fmt::format("{:.6g}", s.theta)}});
-  };
-  constexpr std::size_t most_rows = 60;
-  row(0, "start", record.start);
-  std::size_t rows = 1;
-  for (std::size_t k = 0; k < record.events.size() && rows < most_rows; ++k) {
-    const HybridEvent& event = record.events[k];
-    if (event.kind == Kind::sample) continue;
-    std::size_t run = 1;  // collisions in a row make one line
-    while (event.kind == Kind::collision && k + 1 < record.events.size() &&
-           record.events[k + 1].kind == Kind::collision)
-      ++k, ++run;
-    const HybridEvent& last = record.events[k];
-    row(last.time, run > 1 ? fmt::format("{} collisions", run) : gaits::words(event), last.state);
-    ++rows;
   }
   out += table.print(false);
-  if (rows >= most_rows) out += "and more (all of them in the JSON)\n";
+  if (rows.size() > most_rows)
+    out += fmt::format("and {} lines more (all events are in the JSON)\n", rows.size() - most_rows);
   if (record.run.ambiguous > 0)
     out += fmt::format(
         "\n{} times more than one contact mode was consistent; the one that keeps most contacts was taken.\n",

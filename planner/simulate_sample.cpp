@@ -111,7 +111,7 @@ SampleReport sample_pushes(const SampleRequest& request) {
                    {"", "inconsistent", right},
                    {"", "undecided", right},
                    {"", "share at rest", right},
-                   {"", "farthest rest", right}});
+                   {"", "farthest rest [distance of the feet]", right}});
   nlohmann::ordered_json tree;
   tree["surefoot"] = 1;
   tree["runs"] = request.runs, tree["size"] = request.size, tree["restitution"] = request.options.restitution;

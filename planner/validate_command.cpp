@@ -6,7 +6,9 @@
 
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
+#include "planner/infeasibility.hpp"
 #include "planner/problem.hpp"
+#include "planner/start_faults.hpp"
 #include "planner/step_proposals.hpp"
 
 namespace surefoot::planner {
@@ -34,8 +36,15 @@ std::string ground_summary(const terrain::Terrain& ground) {
 std::string start_summary(const gaits::Scene& scene, terrain::FaultList& faults) {
   StepProposals proposals(scene);
   const StartChoice choice = choose_start(proposals);
-  if (choice.nodes.empty() && choice.decided) faults.add(start_error(scene, choice));
-  return choice.nodes.empty() ? "no stable start was found: " + choice.fault : "start stands";
+  if (!choice.nodes.empty()) return "start stands";
+  if (choice.decided) {
+    faults.add(start_error(scene, choice));
+    return "";
+  }
+  const auto impossible = prove_infeasible(scene);
+  if (impossible && impossible->obstacle == Obstacle::start)
+    return "the start cannot stand: " + impossible->reason + hanging_feet(scene);
+  return "no stable start was found: " + choice.fault;
 }
 
 /// Whether it is in order.
@@ -50,6 +59,8 @@ bool validate(const std::string& path, std::string& report) {
   if (faults.count() > 0) return false;
   fmt::format_to(std::back_inserter(report), "{}: valid: {}, {}, {}\n", name, one_line(scene->name),
                  ground_summary(scene->terrain), start);
+  if (const std::string remark = reversed_chain_remark(*scene); !remark.empty())
+    fmt::format_to(std::back_inserter(report), "{}: remark: {}\n", name, remark);
   return true;
 }
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "terrain/source.hpp"
+#include "terrain/yaml_advice.hpp"
 
 namespace surefoot::terrain {
 
@@ -23,10 +24,17 @@ class DocumentBuilder : public YAML::EventHandler {
   Node take_root() { return std::move(pool_.front()); }
   std::size_t last_quoted() const { return last_quoted_; }
   YAML::Mark last_mark() const { return last_mark_; }
+  /// Where the innermost list or map that is not ended begins.
+  std::optional<std::size_t> open() const {
+    if (frames_.empty()) return std::nullopt;
+    return static_cast<std::size_t>(frames_.back().mark.pos);
+  }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ == 1) return;
-    fail(mark, "content after the end of the value; expected one value (is the indentation right?)");
+    const std::string advice = advice_on_line_above(source_, static_cast<std::size_t>(mark.pos));
+    fail(mark, "content after the end of the value; expected one value" +
+                   (advice.empty() ? " (is the indentation right?)" : advice));
   }
   void OnDocumentEnd() override {}
 
@@ -254,8 +262,10 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
   } catch (const YAML::Exception& error) {
     if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());
     const YAML::Mark mark = error.mark.is_null() ? builder.last_mark() : error.mark;
+    const std::string message = readable(error.msg);
+    const std::string advice = yaml_advice(source, message, static_cast<std::size_t>(mark.pos), builder.open());
     throw source.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column),
-                       "not valid YAML: " + shown(readable(error.msg), longest_message));
+                       "not valid YAML: " + shown(message, longest_message) + advice);
   }
   if (!builder.complete()) throw source.error(0, 0, "nothing but white space or comments");
   if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());

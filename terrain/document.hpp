@@ -66,6 +66,8 @@ class Node {
   Kind kind() const { return static_cast<Kind>(content_.index()); }
   std::string where() const;                                 ///< "file:line:column", from 1, columns in characters
   [[noreturn]] void fail(const std::string& message) const;  ///< throws InputError at this node
+  /// fail("what: 0.3 is given; expected ...") in the words for what this node is.
+  [[noreturn]] void refuse(std::string_view what, std::string_view expected) const;
 
   /// Reads something that stands on its own. Without a FaultList no more than read(); with one, an InputError is kept
   /// there and the result is empty (false where read returns nothing).
@@ -94,8 +96,8 @@ class Node {
   // Maps. Keys are scalars and unique (checked when the file is read). `what` names the map.
   const std::vector<std::pair<Node, Node>>& entries(std::string_view what) const;
   const Node* find(std::string_view key) const;  ///< nullptr if absent or not a map
-  /// Absent: InputError; AlreadyTold if allow_only has suggested it for a misspelt key.
-  const Node& require(std::string_view key, std::string_view what) const;
+  /// Absent: InputError that ends in `advice`; AlreadyTold if allow_only has suggested it for a misspelt key.
+  const Node& require(std::string_view key, std::string_view what, std::string_view advice = "") const;
   /// Refuses every key that is not listed, and suggests the nearest one that is. False if there is one (and faults are
   /// kept).
   bool allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const;
@@ -106,8 +108,11 @@ class Node {
   using Entries = std::vector<std::pair<Node, Node>>;
 
   std::string described() const;  // for messages
-  [[noreturn]] void refuse_key(const std::vector<std::string>& keys, std::string_view what) const;
-  [[noreturn]] void refuse(std::string_view what, std::string_view expected) const;
+  /// `before` is the entry before it, or nullptr.
+  [[noreturn]] void refuse_key(const std::vector<std::string>& keys, std::string_view what,
+                               const std::pair<Node, Node>* before) const;
+  std::string list_advice(std::size_t n) const;  // for messages
+  bool is_integer() const;
   std::string_view plain_scalar(std::string_view what, std::string_view expected) const;
 
   std::variant<std::monostate, std::string_view, Items, Entries> content_;  // in the order of Kind
@@ -162,6 +167,9 @@ class Document {
   std::unique_ptr<Source> source_;
   Node root_;
 };
+
+/// The whole file. Throws InputError.
+std::string read_text(const std::string& path);
 
 /// All of an open file; `name` stands for it in messages. Throws InputError, also beyond max_file_size.
 std::string read_all(std::FILE* file, const std::string& name);

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include "terrain/document.hpp"
 #include "terrain/source.hpp"
@@ -11,7 +9,7 @@
 namespace surefoot::terrain {
 namespace {
 
-constexpr std::size_t longest_word = 64;  // longer ones have no near misses worth naming
+constexpr std::size_t longest_number = 64;  // longer ones are not looked at for a unit behind them
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -46,6 +44,32 @@ Form form_of(std::string_view text) {
 
 std::string_view without_sign(std::string_view text) {
   return text.starts_with('+') || text.starts_with('-') ? text.substr(1) : text;
+}
+
+bool is_digits(std::string_view text) { return !text.empty() && digits_at(text, 0) == text.size(); }
+
+bool is_number(std::string_view text) { return form_of(without_sign(text)) != Form::not_a_number; }
+
+/// What to write instead of a text that is no number, for the ways in which numbers are commonly written elsewhere.
+std::string number_meant_by(std::string_view text) {
+  for (const std::string_view minus : {"\u2212", "\u2013", "\u2014"}) {  // minus sign, dashes
+    if (text.starts_with(minus)) return "a plain minus sign, as in -0.25";
+  }
+  const std::size_t comma = text.find(',');
+  if (comma != std::string_view::npos && is_digits(text.substr(comma + 1)) &&
+      is_digits(without_sign(text.substr(0, comma)))) {
+    return "a point, no comma: " +
+           shown(std::string(text.substr(0, comma)) + "." + std::string(text.substr(comma + 1)));
+  }
+  std::size_t number = std::min(text.size(), longest_number);  // the longest beginning that is one
+  while (number > 0 && !is_number(text.substr(0, number))) --number;
+  const std::string_view rest = text.substr(std::min(text.find_first_not_of(' ', number), text.size()));
+  const bool unit = !rest.empty() && (std::isalpha(static_cast<unsigned char>(rest[0])) || rest[0] == '%' ||
+                                      rest.starts_with("\u00b0"));  // degrees
+  if (number == 0 || !unit || rest == "e" || rest == "E" || std::any_of(rest.begin(), rest.end(), is_digit)) {
+    return "a number such as 0.25 or 1e-3";
+  }
+  return "the number alone, without a unit (metres, kilograms, seconds)";
 }
 
 /// std::from_chars knows no plus sign.
@@ -120,15 +144,20 @@ void Node::refuse(std::string_view what, std::string_view expected) const {
 }
 
 std::string_view Node::plain_scalar(std::string_view what, std::string_view expected) const {
+  if (kind() == Kind::scalar && quoted_ && is_number(std::get<std::string_view>(content_))) {
+    refuse(what, std::string(expected) + ", without quotes");
+  }
   if (kind() != Kind::scalar || quoted_) refuse(what, expected);
   return std::get<std::string_view>(content_);
 }
 
 double Node::number(std::string_view what) const {
   const std::string_view text = plain_scalar(what, "a number");
-  const auto fail_with = [&](const char* reason) { fail(std::string(what) + ": " + shown(text) + " " + reason); };
+  const auto fail_with = [&](const std::string& reason) {
+    fail(std::string(what) + ": " + shown(text) + " " + reason);
+  };
   const Form form = form_of(without_sign(text));
-  if (form == Form::not_a_number) fail_with("is not a finite decimal number; expected a number such as 0.25 or 1e-3");
+  if (form == Form::not_a_number) fail_with("is not a finite decimal number; expected " + number_meant_by(text));
   if (form == Form::leading_zero) fail_with("has a leading zero; expected a decimal number without");
   double value = 0;
   if (convert(text, value) != std::errc() || !std::isfinite(value)) {
@@ -176,6 +205,26 @@ std::string Node::text(std::string_view what) const {
   return std::string(std::get<std::string_view>(content_));
 }
 
+bool Node::is_integer() const {
+  return kind() == Kind::scalar && !quoted_ &&
+         form_of(without_sign(std::get<std::string_view>(content_))) == Form::integer;
+}
+
+/// Of something that is no list of n items: how it may have been meant as one.
+std::string Node::list_advice(std::size_t n) const {
+  if (kind() == Kind::scalar) {
+    const std::string_view text = std::get<std::string_view>(content_);
+    const bool listed = text.find(',') != std::string_view::npos || text.starts_with('(') || text.ends_with(')');
+    return listed ? " in square brackets, [a, b]" : "";
+  }
+  if (kind() != Kind::sequence || n == 0 || std::get<Items>(content_).size() != 2 * n) return "";
+  const Items& items = std::get<Items>(content_);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!items[i].is_integer() || (i % 2 == 1 && !is_digits(std::get<std::string_view>(items[i].content_)))) return "";
+  }
+  return "; the decimal point is a point, no comma";
+}
+
 const std::vector<Node>& Node::items(std::string_view what) const {
   if (kind() != Kind::sequence) refuse(what, "a list");
   return std::get<Items>(content_);
@@ -183,12 +232,13 @@ const std::vector<Node>& Node::items(std::string_view what) const {
 
 const std::vector<Node>& Node::items(std::string_view what, std::size_t n) const {
   if (kind() != Kind::sequence || std::get<Items>(content_).size() != n) {
-    refuse(what, "a list of " + counted(n, "item"));
+    refuse(what, "a list of " + counted(n, "item") + list_advice(n));
   }
   return std::get<Items>(content_);
 }
 
 const std::vector<std::pair<Node, Node>>& Node::entries(std::string_view what) const {
+  if (is_null()) refuse(what, "a map (key: value), indented below it");
   if (kind() != Kind::map) refuse(what, "a map (key: value)");
   return std::get<Entries>(content_);
 }
@@ -201,7 +251,7 @@ const Node* Node::find(std::string_view key) const {
   return nullptr;
 }
 
-const Node& Node::require(std::string_view key, std::string_view what) const {
+const Node& Node::require(std::string_view key, std::string_view what, std::string_view advice) const {
   entries(what);
   if (const Node* value = find(key)) return *value;
   if (faults()) {
@@ -209,70 +259,38 @@ const Node& Node::require(std::string_view key, std::string_view what) const {
       if (meant_by(std::get<std::string_view>(name.content_), {std::string(key)}) == key) throw AlreadyTold();
     }
   }
-  fail(std::string(what) + ": \"" + std::string(key) + "\" is missing");
+  fail(std::string(what) + ": \"" + std::string(key) + "\" is missing" + std::string(advice));
 }
 
 bool Node::allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const {
   bool known = true;
-  for (const auto& [name, value] : entries(what)) {
+  const std::pair<Node, Node>* before = nullptr;
+  for (const auto& entry : entries(what)) {
+    const Node& name = entry.first;
     const std::string_view key = std::get<std::string_view>(name.content_);
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    name.attempt([&, &node = name] { node.refuse_key({keys.begin(), keys.end()}, what); });
-    known = false;
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      name.attempt([&] { name.refuse_key({keys.begin(), keys.end()}, what, before); });
+      known = false;
+    }
+    before = &entry;
   }
   return known;
 }
 
-void Node::refuse_key(const std::vector<std::string>& keys, std::string_view what) const {
+void Node::refuse_key(const std::vector<std::string>& keys, std::string_view what,
+                      const std::pair<Node, Node>* before) const {
   const std::string_view key = std::get<std::string_view>(content_);
   const std::string message = std::string(what) + ": unknown key \"" + shown(key) + "\"; ";
+  if (before && before->second.is_integer() && is_digits(key)) {
+    fail(message + "the decimal point is a point, no comma: expected " +
+         shown(std::get<std::string_view>(before->second.content_)) + "." + shown(key));
+  }
   const std::string meant = meant_by(key, keys);
   if (!meant.empty() && key.starts_with(meant + ':')) fail(message + "a space must follow the colon");
   if (!meant.empty()) fail(message + "did you mean \"" + meant + "\"?");
   std::string list;
   for (const std::string& allowed : keys) list += (list.empty() ? "" : ", ") + allowed;
   fail(message + "expected one of: " + list);
-}
-
-namespace {
-
-/// Levenshtein distance, with the swap of two neighbouring letters as one edit, letter case aside.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  const auto same = [](char l, char r) {
-    return std::tolower(static_cast<unsigned char>(l)) == std::tolower(static_cast<unsigned char>(r));
-  };
-  std::array<std::vector<std::size_t>, 3> rows;
-  for (auto& row : rows) row.resize(b.size() + 1);
-  std::iota(rows[0].begin(), rows[0].end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    auto& row = rows[i % 3];
-    const auto &above = rows[(i + 2) % 3], &two_above = rows[(i + 1) % 3];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + !same(a[i - 1], b[j - 1])});
-      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
-        row[j] = std::min(row[j], two_above[j - 2] + 1);
-      }
-    }
-  }
-  return rows[a.size() % 3][b.size()];
-}
-
-}  // namespace
-
-std::string near_miss(std::string_view word, const std::vector<std::string>& candidates) {
-  if (word.size() > longest_word) return "";
-  // A word of which no letter need remain is near to nothing.
-  std::size_t nearest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, std::max<std::size_t>(word.size(), 1));
-  std::string best;
-  for (const std::string& candidate : candidates) {
-    if (candidate.size() > longest_word) continue;
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance >= nearest) continue;
-    nearest = distance;
-    best = candidate;
-  }
-  return best;
 }
 
 }  // namespace surefoot::terrain

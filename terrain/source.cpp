@@ -75,15 +75,28 @@ InputError Source::error(std::size_t line, std::size_t byte_column, const std::s
   return InputError(place(line, byte_column) + ": " + message, line + 1, character_column(text, line, byte_column) + 1);
 }
 
-void Source::fail_at(std::size_t position, const std::string& message) const {
+std::string_view Source::line_before(std::size_t position) const {
+  const std::string_view before = std::string_view(text).substr(0, position);
+  const std::size_t line_feed = before.rfind('\n');
+  return line_feed == std::string_view::npos ? before : before.substr(line_feed + 1);
+}
+
+std::size_t Source::line_of(std::size_t position) const {
   const auto at = text.begin() + static_cast<std::ptrdiff_t>(std::min(position, text.size()));
-  const auto line = static_cast<std::size_t>(std::count(text.begin(), at, '\n'));
-  const std::size_t before = position == 0 ? std::string::npos : text.rfind('\n', position - 1);
-  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-  throw error(line, position - begin, message);
+  return static_cast<std::size_t>(std::count(text.begin(), at, '\n'));
+}
+
+std::string Source::place_of(std::size_t position) const {
+  return place(line_of(position), line_before(position).size());
+}
+
+void Source::fail_at(std::size_t position, const std::string& message) const {
+  throw error(line_of(position), line_before(position).size(), message);
 }
 
 void Source::check_characters() const {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    fail_at(0, "this is UTF-16, not UTF-8 text; expected the file to be saved as UTF-8");
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = sequence_length(text, i);
     if (length == 0) fail_at(i, "byte " + hexadecimal(byte_at(text, i)) + " is not UTF-8 text");

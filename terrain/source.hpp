@@ -26,13 +26,15 @@ struct Source {
   void check_characters() const;
   /// Refuses a quoted scalar that begins at `position` and never ends (the parser reads on to the end).
   void check_quotes(std::size_t position) const;
+  std::size_t line_of(std::size_t position) const;  ///< from 0
+  /// The line that a position stands on, up to there.
+  std::string_view line_before(std::size_t position) const;
+  /// "name:line:column" of a position.
+  std::string place_of(std::size_t position) const;
 };
 
 /// The parser turns the escapes "\_" and "\N" into single bytes; here they become the characters that they stand for
 /// (U+00A0, U+0085), as UTF-8.
 std::string well_formed(std::string_view value);
-
-/// The whole file. Throws InputError.
-std::string read_text(const std::string& path);
 
 }  // namespace surefoot::terrain

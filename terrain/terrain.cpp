@@ -21,7 +21,7 @@ Segment make_segment(const Chain& chain, int c, int index, double s_begin) {
   const Point step = segment.b - segment.a;
   segment.length = std::hypot(step.x(), step.y());
   segment.tangent = step / segment.length;
-  segment.normal = Point(-segment.tangent.y(), segment.tangent.x());
+  segment.normal = Point(0.0 - segment.tangent.y(), segment.tangent.x());  // level ground: 0, not -0
   segment.surface = chain.surfaces[index];
   return segment;
 }

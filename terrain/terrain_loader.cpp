@@ -32,7 +32,9 @@ void load_override(const Node& key, const Node& value, std::vector<Surface>& sur
   }
   if (given[index]) key.fail("segment index: " + std::to_string(index) + " is given twice");
   given[index] = true;
-  value.allow_only({"friction", "foothold"}, "segment " + std::to_string(index));
+  const std::string name = "segment " + std::to_string(index);
+  if (value.kind() != Node::Kind::map) value.refuse(name, "{friction: number}, {foothold: false} or both");
+  value.allow_only({"friction", "foothold"}, name);
   Surface& surface = surfaces[index];
   if (const Node* friction = value.find("friction")) {
     friction->attempt([&] { surface.friction = friction->not_negative("friction"); });
@@ -51,6 +53,7 @@ void load_overrides(const Node& node, std::vector<Surface>& surfaces) {
 }
 
 Chain load_chain(const Node& node, const Surface& surface) {
+  if (node.kind() != Node::Kind::map) node.refuse("chain", "vertices: [[x, y], [x, y], ...]");
   node.allow_only({"vertices", "segments"}, "chain");
   const Node& vertices = node.require("vertices", "chain");
   const auto& items = vertices.items("vertices");
@@ -92,6 +95,7 @@ Terrain load_terrain(const Node& node) {
   Surface surface;
   node.attempt([&] { surface.friction = node.require("friction", "terrain").not_negative("friction"); });
   const Node& list = node.require("chains", "terrain");
+  if (list.kind() == Node::Kind::map) list.refuse("chains", "a list, - vertices: [[x, y], [x, y], ...]");
   std::vector<Chain> chains;
   std::vector<bool> unread;
   for (const Node& item : list.items("chains")) {

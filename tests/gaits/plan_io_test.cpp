@@ -386,6 +386,31 @@ TEST_CASE("faults in a plan are named with their place", "[plan_io]") {
   }
 }
 
+TEST_CASE("what is no plan file but could have been meant as one is called what it is", "[plan_io]") {
+  const auto error_of = [](const std::string& text) -> std::string {
+    try {
+      parse_plan(text, "p");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const Scene scene = scene_on(level_ground_and());
+  Plan plan = plan_by_hand(scene);
+  const std::string printed = "p:1:1: plan: this is a plan printed as text; write it with -o plan.json";
+  CHECK(error_of(to_text(scene, plan)) == printed);
+  for (const Status status : {Status::no_plan_found, Status::infeasible}) {
+    plan.status = status;
+    plan.reason = "for a reason";
+    CHECK(error_of(to_text(scene, plan)) == printed);
+  }
+  CHECK(error_of("surefoot: 1\nterrain: {}\nrobot: {}\n") ==
+        "p:1:1: plan: this is a scene; expected a plan (surefoot check takes SCENE, then PLAN)");
+  // The same words in a plan that only has another fault are none of that.
+  CHECK_THAT(error_of("{\"scene\": \"a: solved in 3 steps\", \"x\": 1}"), Catch::Contains("unknown key \"x\""));
+  CHECK_THAT(error_of("scene: 'a'\nx: 1\nreason: 'b: infeasible'\n"), Catch::Contains("unknown key \"x\""));
+}
+
 TEST_CASE("every truncation of a plan file is refused or read, never worse", "[plan_io]") {
   const Scene scene = scene_on(level_ground_and());
   const std::string json = to_json(plan_by_hand(scene));

@@ -178,6 +178,10 @@ TEST_CASE("no plan: the status and the reason are said", "[plan_text]") {
   REQUIRE(to_text(scene, plan).starts_with("gap: infeasible - the gap is wider than two reaches\n"));
   plan.status = Status::no_plan_found;
   REQUIRE(to_text(scene, plan).starts_with("gap: no plan found - "));
+  plan.reason = "no plan found within the time limit (auto); Layers came to COM (1, 2); 3 steps refused";
+  REQUIRE(to_text(scene, plan)
+              .starts_with(
+                  "gap: no plan found within the time limit (auto)\n  Layers came to COM (1, 2)\n  3 steps refused\n"));
 }
 
 TEST_CASE("limits are spelled out with the legs they mean", "[plan_text]") {

@@ -157,7 +157,7 @@ TEST_CASE("Faults of the ground are all told, and say nothing of the feet", "[fa
   CHECK(told_of(edited(crossing, {"{x: -0.3}", "{chain: 2, s: 1}", {}})) ==
         in_file({"9:18: chain 1, segment 0 crosses or touches chain 0, segment 0, which begins at f:6:18",
                  "9:28: chain 1, segment 1 crosses or touches chain 0, segment 0, which begins at f:6:18",
-                 "19:18: chain: 2 does not exist; expected 0 to 1"}));
+                 "19:18: chain: 2 does not exist; chains are 0 to 1"}));
 }
 
 TEST_CASE("What follows from a fault is not told", "[faults]") {

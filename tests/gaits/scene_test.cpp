@@ -156,17 +156,26 @@ TEST_CASE("unknown keys are refused at every level, where they stand", "[scene]"
 }
 
 TEST_CASE("what is required is missed", "[scene]") {
-  const Fault fault =
-      GENERATE(Fault{"surefoot: 1\n", "", "s.yaml:1:1: scene: \"surefoot\" is missing"},
-               Fault{"disturbance: {kappa: 0.1, nu: 0.03}\n", "", "s.yaml:1:1: scene: \"disturbance\" is missing"},
-               Fault{"{kappa: 0.1, nu: 0.03}", "{nu: 0.03}", "s.yaml:14:14: disturbance: \"kappa\" is missing"},
-               Fault{"  radius_of_gyration: 0.12\n", "", "s.yaml:10:3: robot: \"radius_of_gyration\" is missing"},
-               Fault{"  reach: [0.2, 0.9]\n", "", "s.yaml:10:3: robot: \"reach\" is missing"},
-               Fault{"  feet: [{x: -0.2}, {x: 0.1}, {chain: 0, s: 1.75}]\n", "",
-                     "s.yaml:19:3: start: \"feet\" is missing"},
-               Fault{"{chain: 0, s: 1.75}", "{chain: 0}", "s.yaml:19:31: foot: \"s\" is missing"},
-               Fault{"{chain: 0, s: 1.75}", "{s: 1.75}", "s.yaml:19:31: foot: \"chain\" is missing"},
-               Fault{"{com_x: [1.6, 1.9], com_y: [0.5, 0.5]}", "{}", "s.yaml:22:7: goal: nothing is given; expected"});
+  const Fault fault = GENERATE(
+      Fault{"surefoot: 1\n", "", "s.yaml:1:1: scene: \"surefoot\" is missing; add \"surefoot: 1\" as the first line"},
+      Fault{"disturbance: {kappa: 0.1, nu: 0.03}\n", "",
+            "s.yaml:1:1: scene: \"disturbance\" is missing; for none add \"disturbance: {kappa: 0, nu: 0}\""},
+      Fault{"goal: {com_x: [1.6, 1.9], com_y: [0.5, 0.5]}\n", "",
+            "s.yaml:1:1: scene: \"goal\" is missing; add such as \"goal: {com_x: [from, to]}\""},
+      Fault{"{kappa: 0.1, nu: 0.03}", "{nu: 0.03}", "s.yaml:14:14: disturbance: \"kappa\" is missing"},
+      Fault{"  radius_of_gyration: 0.12\n", "", "s.yaml:10:3: robot: \"radius_of_gyration\" is missing"},
+      Fault{"  reach: [0.2, 0.9]\n", "", "s.yaml:10:3: robot: \"reach\" is missing"},
+      Fault{"  feet: [{x: -0.2}, {x: 0.1}, {chain: 0, s: 1.75}]\n", "", "s.yaml:19:3: start: \"feet\" is missing"},
+      Fault{"{chain: 0, s: 1.75}", "{chain: 0}", "s.yaml:19:31: foot: \"s\" is missing"},
+      Fault{"{chain: 0, s: 1.75}", "{s: 1.75}", "s.yaml:19:31: foot: \"chain\" is missing"},
+      Fault{"{com_x: [1.6, 1.9], com_y: [0.5, 0.5]}", "{}",
+            "s.yaml:22:7: goal: nothing is given; expected {com_x: [from, to]}, com_y or both"},
+      Fault{"{com_x: [1.6, 1.9], com_y: [0.5, 0.5]}", "1.6",
+            "s.yaml:22:7: goal: 1.6 is given; expected {com_x: [from, to]}, com_y or both"},
+      Fault{"{com_x: [1.6, 1.9], com_y: [0.5, 0.5]}", "[1.6, 1.9]",
+            "s.yaml:22:7: goal: a list of 2 items is given; expected {com_x: [from, to]}, com_y or both"},
+      Fault{"{kappa: 0.1, nu: 0.03}", "0.1",
+            "s.yaml:14:14: disturbance: 0.1 is given; expected {kappa: ..., nu: ...}"});
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
 }
 
@@ -202,7 +211,8 @@ TEST_CASE("numbers out of range are refused where they stand", "[scene]") {
                Fault{"com: [-0.05, 0.5]", "com: [-0.05]", "s.yaml:21:8: com [x, y]: a list of 1 item"},
                Fault{"com: [-0.05, 0.5]", "com: [-0.05, up]", "s.yaml:21:16: y of com: up is not a finite"},
                Fault{"com_x: [1.6, 1.9]", "com_x: [1.9, 1.6]", "s.yaml:22:15: com_x: [1.9, 1.6] is empty"},
-               Fault{"com_y: [0.5, 0.5]", "com_y: 0.5", "s.yaml:22:34: com_y [least, greatest]: 0.5 is given"},
+               Fault{"com_y: [0.5, 0.5]", "com_y: 0.5",
+                     "s.yaml:22:34: com_y: 0.5 is given; expected [from, to], the least first"},
                Fault{"seed: 7", "seed: 0", "s.yaml:23:16: seed: 0 is out of range; expected 1 to 2147483562"},
                Fault{"seed: 7", "seed: 2147483563", "s.yaml:23:16: seed: 2147483563 is out of range"},
                Fault{"seed: 7", "seed: 1.5", "s.yaml:23:16: seed: 1.5 is not an integer"},
@@ -224,25 +234,91 @@ TEST_CASE("words that are not choices are refused, near ones suggested", "[scene
 }
 
 TEST_CASE("feet that cannot stand where they are put are refused", "[scene]") {
-  const Fault fault =
-      GENERATE(Fault{"s: 1.75", "s: 1.5", "s.yaml:19:45: s: 1.5 is on a vertex of chain 0"},
-               Fault{"s: 1.75", "s: 0", "s.yaml:19:45: s: 0 is on a vertex of chain 0"},
-               Fault{"s: 1.75", "s: 1.6", "s.yaml:19:45: s: 1.6 is on segment 1 of chain 0, where no foot may stand"},
-               Fault{"s: 1.75", "s: 3.16", "s.yaml:19:45: s: 3.16 is outside chain 0; expected 0 to 3.15"},
-               Fault{"s: 1.75", "s: -0.1", "s.yaml:19:45: s: -0.1 is outside chain 0"},
-               Fault{"chain: 0,", "chain: 2,", "s.yaml:19:39: chain: 2 does not exist; expected 0 to 1"},
-               Fault{"chain: 0,", "chain: -1,", "s.yaml:19:39: chain: -1 does not exist"},
-               Fault{"chain: 0,", "chain: 4294967296,", "s.yaml:19:39: chain: 4294967296 does not exist"},
-               Fault{"{x: 0.1}", "{x: 3}", "s.yaml:19:25: x: there is no foothold at 3"},
-               Fault{"{x: 0.1}", "{x: 0.5}", "s.yaml:19:25: x: there is no foothold at 0.5"},
-               Fault{"{x: 0.1}", "{x: 1.75}",
-                     "s.yaml:19:25: x: 1.75 is ambiguous; expected one of: {chain: 0, s: 2.9}, {chain: 1, s: 0.25}"},
-               Fault{"{x: 0.1}", "{x: 0.1, s: 1}", "s.yaml:19:21: foot: x is given besides chain and s"},
-               Fault{"{x: 0.1}", "{}", "s.yaml:19:21: foot: nothing is given"},
-               Fault{"{x: 0.1}", "0.1", "s.yaml:19:21: foot: 0.1 is given; expected a map"},
-               Fault{"{x: 0.1}, ", "", "s.yaml:19:9: feet: a list of 2 items is given"},
-               Fault{"{x: -0.2}, {x: 0.1}", "~, null", "s.yaml:19:9: feet: 1 given; expected at least 2"});
+  const Fault fault = GENERATE(
+      Fault{"s: 1.75", "s: 1.5", "s.yaml:19:45: s: 1.5 is on a vertex of chain 0"},
+      Fault{"s: 1.75", "s: 0", "s.yaml:19:45: s: 0 is on a vertex of chain 0"},
+      Fault{"s: 1.75", "s: 1.6", "s.yaml:19:45: s: 1.6 is on segment 1 of chain 0, where no foot may stand"},
+      Fault{"s: 1.75", "s: 3.16", "s.yaml:19:45: s: 3.16 is outside chain 0; expected 0 to 3.15"},
+      Fault{"s: 1.75", "s: -0.1", "s.yaml:19:45: s: -0.1 is outside chain 0"},
+      Fault{"chain: 0,", "chain: 2,", "s.yaml:19:39: chain: 2 does not exist; chains are 0 to 1"},
+      Fault{"chain: 0,", "chain: -1,", "s.yaml:19:39: chain: -1 does not exist"},
+      Fault{"chain: 0,", "chain: 4294967296,", "s.yaml:19:39: chain: 4294967296 does not exist"},
+      Fault{"{x: 0.1}", "{x: 3}", "s.yaml:19:25: x: 3 is beyond the terrain; expected -1 to 2"},
+      Fault{"{x: 0.1}", "{x: 0.5}",
+            "s.yaml:19:25: x: 0.5 is on a vertical face from y = 0 to 0.15, segment 1 of chain 0; expected another "
+            "x"},
+      Fault{"{x: 0.1}", "{x: 1.75}",
+            "s.yaml:19:25: x: 1.75 is ambiguous; expected one of: {chain: 0, s: 2.9}, {chain: 1, s: 0.25} (a ceiling)"},
+      Fault{"{x: 0.1}", "{x: 0.1, s: 1}", "s.yaml:19:21: foot: x is given besides chain and s"},
+      Fault{"{x: 0.1}", "{}", "s.yaml:19:21: foot: nothing is given"},
+      Fault{"{x: 0.1}", "{x: 0.1, y: 0}",
+            "s.yaml:19:33: y: the height of a foot follows from the terrain; expected {x} alone, or {chain, s}"},
+      Fault{"{x: 0.1}", "0.1",
+            "s.yaml:19:21: foot: 0.1 is given; expected {x: number}, {chain: number, s: number} or null"},
+      Fault{"{x: 0.1}, ", "",
+            "s.yaml:19:9: feet: a list of 2 items is given; expected a list of 3, one for each leg (null: in the "
+            "air)"},
+      Fault{"{x: -0.2}, {x: 0.1}", "~, null", "s.yaml:19:9: feet: 1 given; expected at least 2"});
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
+}
+
+TEST_CASE("an x without foothold is told what is there instead", "[scene]") {
+  // Two chains: a step whose riser may be stood on, a tread that may not, a gap from 2 to 2.5.
+  const auto error_at = [](const std::string& x) {
+    const std::string chains =
+        "    - vertices: [[-1, 0], [0.5, 0], [0.5, 0.15], [1, 0.15], [2, 0.15]]\n"
+        "      segments: {2: {foothold: false}}\n"
+        "    - vertices: [[2.5, 0], [4, 0]]\n";
+    std::string text = with("{x: 0.1}", "{x: " + x + "}");
+    const auto at = text.find("    - vertices: [[-1");
+    const auto end = text.find("robot:");
+    return error_of(text.replace(at, end - at, chains));
+  };
+  CHECK(error_at("0.5") ==
+        "s.yaml:19:25: x: 0.5 is on a vertical face from y = 0 to 0.15, segment 1 of chain 0; expected another x, or "
+        "{chain: 0, s} with s between 1.5 and 1.65 to stand on the face");
+  CHECK(error_at("0.75") ==
+        "s.yaml:19:25: x: 0.75 is on segment 2 of chain 0, where no foot may stand (foothold: false); expected a "
+        "foothold");
+  CHECK(error_at("1") == "s.yaml:19:25: x: 1 is on a vertex of chain 0; expected a point inside a segment");
+  CHECK(error_at("2.25") ==
+        "s.yaml:19:25: x: 2.25 is in a gap of the terrain, from 2 to 2.5; expected a point inside a segment");
+  CHECK(error_at("-1.5") == "s.yaml:19:25: x: -1.5 is beyond the terrain; expected -1 to 4");
+  CHECK(error_at("4") == "s.yaml:19:25: x: 4 is on a vertex of chain 1; expected a point inside a segment");
+}
+
+TEST_CASE("ground given from right to left is told at its chain, and only where no foot can push up", "[scene]") {
+  const auto scene = [](const std::string& chains, const std::string& feet, const std::string& friction = "0.6") {
+    return "surefoot: 1\nterrain:\n  friction: " + friction + "\n  chains:\n" + chains +
+           "robot: {radius_of_gyration: 0.1, reach: [0.1, 0.9]}\ndisturbance: {kappa: 0, nu: 0}\nstart: {feet: " +
+           feet + "}\ngoal: {com_x: [1, 2]}\n";
+  };
+  const std::string three = "[{x: 0}, {x: 0.4}, {x: 0.2}]", reversed = "    - vertices: [[2.5, 0], [-1, 0]]\n";
+  CHECK(error_of(scene(reversed, three)) ==
+        "s.yaml:5:17: vertices: chain 0 runs from right to left under the start feet, so free space is below it and no "
+        "foot "
+        "can push up; reverse its vertices?");
+  // With a floor below it is a ceiling, as it was meant.
+  const std::string floor = "    - vertices: [[-1, -2], [2.5, -2]]\n";
+  CHECK(error_of(scene(reversed + floor, "[{chain: 1, s: 1}, {chain: 1, s: 1.4}, null]")) == "no error");
+  CHECK_THAT(error_of(scene(floor + reversed, "[{chain: 1, s: 1}, {chain: 1, s: 1.4}, null]")),
+             Catch::StartsWith("s.yaml:6:17: vertices: chain 1 runs from right to left"));
+  // One foot that can push up leaves the verdict to balance.
+  CHECK(error_of(scene(floor + "    - vertices: [[2.5, -1.5], [-1, -1.5]]\n",
+                       "[{chain: 0, s: 1}, {chain: 1, s: 2.1}, null]")) == "no error");
+  // Overhanging walls, n = (3, -1) / sqrt 10 and its mirror image: f = n + mu t rises by (-1 + 3 mu) / sqrt 10, so
+  // that friction above 1/3 can carry and friction below cannot.
+  const std::string walls = "    - vertices: [[-0.2, 0.6], [0, 0]]\n    - vertices: [[0.6, 0], [0.8, 0.6]]\n";
+  const std::string braced = "[{chain: 0, s: 0.2}, {chain: 1, s: 0.2}, null]";
+  const std::string overhang = "    - vertices: [[0, 0.6], [-0.2, 0]]\n    - vertices: [[0.8, 0], [0.6, 0.6]]\n";
+  CHECK(error_of(scene(walls, braced, "0")) == "no error");
+  CHECK(error_of(scene(overhang, braced, "0.34")) == "no error");
+  CHECK_THAT(error_of(scene(overhang, braced, "0.33")), Catch::StartsWith("s.yaml:5:17: vertices: chain 0 runs from"));
+}
+
+TEST_CASE("a plan given as a scene is called one", "[scene]") {
+  CHECK(error_of("{\"surefoot\": 1, \"scene\": \"a\", \"stances\": [], \"transfers\": []}") ==
+        "s.yaml:1:1: scene: this is a plan; expected a scene (surefoot check takes SCENE, then PLAN)");
 }
 
 TEST_CASE("a support that cannot be is refused", "[scene]") {

@@ -59,7 +59,8 @@ TEST_CASE("A canned scene is known by its name where no file is", "[command][can
   CHECK(place.run("check flat by_name.json").status == 0);
   std::filesystem::remove(place / "flat");
   place.write("flat", "surefoot: 1\nnonsense: 1\n");
-  CHECK_THAT(place.run("check flat by_name.json").err, Catch::Contains("flat:2:1: "));
+  CHECK_THAT(place.run("check flat by_name.json").err,
+             Catch::Contains("flat:1:1: scene: \"terrain\" is missing (and 5 more: surefoot validate flat)"));
 }
 
 TEST_CASE("What is neither file nor canned scene is answered with the nearest", "[command][canned]") {
@@ -75,6 +76,7 @@ TEST_CASE("What is neither file nor canned scene is answered with the nearest", 
   }
   CHECK_THAT(place.run("plan nothing_like_any").err,
              Catch::EndsWith("no such file or canned scene (surefoot maps lists those)\n"));
+  CHECK_THAT(place.run("plan stairs").err, Catch::Contains("did you mean stairs_down or stairs_up?"));
   CHECK_THAT(place.run("mpas").err, Catch::Contains("did you mean maps?"));
 }
 

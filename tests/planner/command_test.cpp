@@ -122,6 +122,20 @@ TEST_CASE("A plan that does not hold can be looked at with what is wrong with it
   const std::string first = check.out.substr(0, check.out.find('\n'));
   REQUIRE(first.starts_with("stance 2: "));
   CHECK_THAT(place.read("plan.html"), Catch::Contains("\"faults\":[\"" + first + "\""));
+  CHECK_THAT(place.run("check scene.yaml plan.json --svg -").out,
+             Catch::Contains("REFUSED by the verifier") && Catch::Contains(first));
+  // The last line counts: as many faults as there are lines above it.
+  std::istringstream lines(check.out);
+  std::string last;
+  int count = -1;
+  for (std::string line; std::getline(lines, line); last = line) ++count;
+  int told = 0;
+  REQUIRE(std::sscanf(last.c_str(), "does not hold: %d fault", &told) == 1);
+  CHECK(told == count);
+  CHECK(check.err.find("named") == std::string::npos);
+  plan["scene"] = "elsewhere";
+  place.write("plan.json", plan.dump());
+  CHECK_THAT(place.run("check scene.yaml plan.json").err, Catch::Contains("for a scene named elsewhere"));
 }
 
 TEST_CASE("Without a plan the status says so and no file is touched", "[command]") {
@@ -132,10 +146,24 @@ TEST_CASE("Without a plan the status says so and no file is touched", "[command]
   const auto run = place.run("plan scene.yaml --time-limit 0.3 -o plan.json --svg plan.svg");
   CHECK((run.status == 1 || run.status == 3));
   CHECK(run.out.empty());
+  CHECK_THAT(run.err, Catch::Contains("plan.json, plan.svg are not written"));
   check_untouched(place, 3);
+  const auto explained = place.run("plan scene.yaml --time-limit 5 -o plan.json --explain");
+  CHECK(explained.out.empty());
+  CHECK_THAT(explained.err, Catch::Contains("alone would do") || Catch::Contains("found to help"));
   const auto text = place.run("plan scene.yaml --time-limit 0.3 --format json");
   CHECK((text.status == 1 || text.status == 3));  // a busy machine may not come to the proof in time, either time
   CHECK(json::parse(text.out)["status"] == (text.status == 1 ? "no_plan_found" : "infeasible"));
+}
+
+TEST_CASE("An explanation is told beside a plan that goes elsewhere", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  const auto run = place.run("plan scene.yaml --format json --explain --effort 0");
+  CHECK(run.status == 0);
+  CHECK(json::parse(run.out)["status"] == "solved");
+  CHECK_THAT(run.err, Catch::Contains("What limits the steps"));
+  CHECK_THAT(place.run("plan scene.yaml --format json --effort 0").err, !Catch::Contains("What limits the steps"));
 }
 
 TEST_CASE("Bad scenes give one error with its place, status 2, and leave files alone", "[command]") {

@@ -5,7 +5,9 @@
 
 #include "gaits/rules.hpp"
 #include "gaits/verifier.hpp"
+#include "planner/problem.hpp"
 #include "planner/search.hpp"
+#include "planner/step_proposals.hpp"
 #include "stability/decisions.hpp"
 #include "stability/frictional.hpp"
 
@@ -112,4 +114,30 @@ TEST_CASE("frictional criteria without a restitution are refused at their place"
   const std::string criterion = GENERATE("both", "frictional");
   CHECK_THROWS_WITH(scene_with("stability: {criterion: " + criterion + "}\n"),
                     Catch::Contains("low:9:24: criterion: frictional stability needs a restitution"));
+}
+
+TEST_CASE("under criterion frictional the first stance need not bear the disturbances of the transfers",
+          "[frictional]") {
+  const std::string text =
+      "surefoot: 1\nterrain:\n  friction: 2\n  chains:\n    - vertices: [[-3, 0], [8, 0]]\n"
+      "robot: {radius_of_gyration: 0.15, reach: [0.05, 1.6], clearance: 0.03}\n"
+      "disturbance: {kappa: 2.5, nu: 0.01}\n"  // more than friction bears
+      "stability: {criterion: CRITERION, restitution: 0.1}\n"
+      "start: {feet: [{x: -0.4}, {x: 0.4}, {x: -0.3}], support: [1, 2]}\n"
+      "goal: {com_x: [1.5, 2]}\n";
+  const auto scene_of = [&text](const std::string& criterion) {
+    std::string scene = text;
+    return gaits::parse_scene(scene.replace(scene.find("CRITERION"), 9, criterion), "slow");
+  };
+  const gaits::Scene frictional = scene_of("frictional"), both = scene_of("both");
+  planner::StepProposals proposals(frictional), strict(both);
+  const planner::StartChoice start = planner::choose_start(proposals), refused = planner::choose_start(strict);
+  REQUIRE_FALSE(start.nodes.empty());
+  for (const planner::Node& node : start.nodes) {
+    const std::vector<stability::Contact> feet{{{-0.4, 0}, {0, 1}, 2}, {{0.4, 0}, {0, 1}, 2}};
+    const stability::Posture posture(feet, 0.15);
+    CHECK(stability::frictional_verdict(posture, node.com, 0.1).stable());
+  }
+  CHECK(refused.nodes.empty());
+  CHECK(refused.decided);
 }

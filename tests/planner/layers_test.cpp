@@ -279,9 +279,9 @@ TEST_CASE("a search that finds nothing says how far it came and what refused its
   REQUIRE(plan.status == gaits::Status::no_plan_found);
   CAPTURE(plan.reason);
   double x = 0, y = 0, left = 0;
-  const auto at = plan.reason.find("Layers came to (");
+  const auto at = plan.reason.find("Layers came to COM (");
   REQUIRE(at != std::string::npos);
-  REQUIRE(std::sscanf(plan.reason.c_str() + at, "Layers came to (%lf, %lf), %lf m", &x, &y, &left) == 3);
+  REQUIRE(std::sscanf(plan.reason.c_str() + at, "Layers came to COM (%lf, %lf), %lf m", &x, &y, &left) == 3);
   CHECK(x > 0.5);  // near the edge
   CHECK(x < 1.9);  // and not beyond the reach of the ground before it
   CHECK(left == Approx(3.6 - x).margin(0.01));

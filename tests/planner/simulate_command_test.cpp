@@ -2,7 +2,9 @@
 // improper.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "program.hpp"
@@ -102,6 +104,35 @@ TEST_CASE("Improper input to simulate ends with one line and status 2", "[simula
   CHECK(place.count() == 2);
 }
 
+TEST_CASE("Rounds of rocking from foot to foot are told once and counted", "[simulate]") {
+  const Workplace place;
+  const std::string call =
+      "simulate --scene " SUREFOOT_MAPS "/vee.yaml --stance 1,3 --com=-0.35,0.1 --q 0,2e-4,1e-4 --restitution 0.05";
+  const json events = json::parse(place.run(call + " --json -").out)["events"];
+  std::size_t lines = 1;  // of the whole table: the start, then every event, collisions in a row as one
+  std::string before;
+  for (const json& event : events) {
+    const std::string kind = event["event"];
+    if (kind != "sample" && (kind != "collision" || before != "collision")) ++lines;
+    before = kind;
+  }
+  std::istringstream text(place.run(call).out);
+  std::string line;
+  std::size_t told = 0, folded = 0;
+  for (int head = 0; head < 3; ++head) std::getline(text, line);
+  while (std::getline(text, line) && !line.empty()) {
+    std::size_t length = 0, times = 0;
+    const auto at = line.find("... these ");
+    ++told;
+    if (at == std::string::npos) continue;
+    REQUIRE(std::sscanf(line.c_str() + at, "... these %zu lines %zu times more", &length, &times) == 2);
+    folded += length * times;
+    --told;
+  }
+  CHECK(folded > 20);
+  CHECK(told + folded == lines);
+}
+
 TEST_CASE("Two start feet of a scene are simulated like the posture they make", "[simulate]") {
   const Workplace place;
   const std::string scene =
@@ -121,6 +152,9 @@ TEST_CASE("Two start feet of a scene are simulated like the posture they make", 
   const auto heights = place.run(scene);
   CHECK(heights.status == 2);
   CHECK(heights.err.find("restitution is missing") != std::string::npos);
+  const auto bare = place.run("simulate --scene " SUREFOOT_MAPS "/vee.yaml --stance 1,3");
+  CHECK(bare.err.find("restitution is missing") != std::string::npos);  // all that is missing at once
+  CHECK(bare.err.find("--com x,y") != std::string::npos);
   const auto both = place.run("simulate same.json --scene " SUREFOOT_MAPS "/vee.yaml");
   CHECK(both.status == 2);
   CHECK(both.err.find("expected one of them") != std::string::npos);

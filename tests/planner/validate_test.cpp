@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
+#include <vector>
 
 #include "program.hpp"
 #include "scene_text.hpp"
@@ -9,6 +10,21 @@
 using surefoot::tests::flat_scene;
 using surefoot::tests::with;
 using surefoot::tests::Workplace;
+
+TEST_CASE("A ceiling given the wrong way round is remarked on, canned scenes are not", "[validate]") {
+  const Workplace place;
+  const std::string on_chain_0 = with("{x: -0.3}, {x: 0.25}, {x: 0}", "{chain: 0, s: 0.7}, {chain: 0, s: 1.25}, null");
+  place.write("pipe.yaml",
+              with("[[-1, 0], [4, 0]]", "[[-1, 0], [4, 0]]\n    - vertices: [[-1, 1.5], [4, 1.5]]", on_chain_0));
+  const auto run = place.run("validate pipe.yaml");
+  CHECK(run.status == 0);
+  CHECK(run.out.find("\npipe.yaml: remark: chain 1 turns its back to chain 0 at (1.5, 1.5)") != std::string::npos);
+  CHECK(place.run("plan pipe.yaml --effort 0").err.find("chain 1 turns its back") != std::string::npos);
+  CHECK(place.run("plan pipe.yaml --effort 0 -q").err.empty());
+  const auto canned = place.shell("'" SUREFOOT_BINARY "' validate " SUREFOOT_MAPS "/*.yaml");
+  CHECK(canned.out.find("flat.yaml: valid") != std::string::npos);
+  CHECK(canned.out.find("remark") == std::string::npos);
+}
 
 TEST_CASE("A scene in order is summed up on one line, status 0", "[validate]") {
   const Workplace place;
@@ -45,6 +61,112 @@ TEST_CASE("What plan refuses before it searches, validate refuses too", "[valida
   CHECK(validate.status == 2);
   CHECK(plan.err == "surefoot: error: " + validate.out);
   CHECK_THAT(validate.out, Catch::Contains("not stable"));
+}
+
+TEST_CASE("Commands name the first fault in the order of the file, and how many more there are", "[validate]") {
+  const Workplace place;
+  // The feet are read after the robot, but these faults are told by their place: goal on line 11, robot on line 6.
+  const std::string one = with("com_x: [1.5, 2]", "com_x: 1.5");
+  place.write("one.yaml", one);
+  place.write("three.yaml", with("kappa: 0.1", "kappa: x", with("reach: [0.2, 0.9]", "reach: 0.9", one)));
+  const std::string goal = "11:15: com_x: 1.5 is given; expected [from, to], the least first";
+  for (const std::string command : {"plan ", "region "}) {
+    CHECK(place.run(command + "one.yaml").err == "surefoot: error: one.yaml:" + goal + "\n");
+    const auto run = place.run(command + "three.yaml");
+    CHECK(run.status == 2);
+    CHECK(run.err ==
+          "surefoot: error: three.yaml:6:42: reach [least, greatest]: 0.9 is given; expected a list of 2 items "
+          "(and 2 more: surefoot validate three.yaml)\n");
+  }
+  // What is read first is not always what stands first.
+  place.write("order.yaml", with("goal: {com_x: [1.5, 2]}\n", "", "goal: 1\n" + with("0.6", "-1")));
+  CHECK_THAT(place.run("plan order.yaml").err, Catch::StartsWith("surefoot: error: order.yaml:1:7: goal: 1 is given"));
+  CHECK_THAT(place.run("validate order.yaml").out, Catch::StartsWith("order.yaml:1:7: goal: 1 is given"));
+}
+
+TEST_CASE("A start that cannot stand is refused with its cause by plan and validate alike", "[validate]") {
+  struct Start {
+    std::string text, told;
+  };
+  const std::string level = "no COM balances on feet 1 and 2: friction bears sideways pushes below ";
+  const std::string none = "no COM within reach of feet 1 and 2 balances";
+  // Feet 1 and 2 stand 0.55 m apart on level ground: without kappa, COMs at least nu inside both feet balance.
+  const std::vector<Start> starts{
+      {with("kappa: 0.1", "kappa: 0.7"), level + "0.6 of the weight, kappa is 0.7"},
+      {with("kappa: 0.1", "kappa: 0.6"), level + "0.6 of the weight, kappa is 0.6"},
+      {with("kappa: 0.1", "kappa: 0", with("0.6", "0")), level + "0 of the weight, kappa is 0"},
+      {with("nu: 0.03", "nu: 0.3"), none + " every disturbance: nu = 0.3 m alone is too much"},
+      // On a slope of tangent t friction mu bears pushes down the slope up to tan(atan mu - atan t) =
+      // (mu - t) / (1 + mu t): 0.25 / 1.375 for mu = 0.75 and t = 0.5, 0.2 for mu = 1.5 and t = 1.
+      {with("0.6", "0.75", with("[4, 0]", "[4, 2.5]", with("kappa: 0.1", "kappa: 0.2"))),
+       level + "0.181818 of the weight, kappa is 0.2"},
+      {with("0.6", "1.5", with("[4, 0]", "[4, 5]", with("kappa: 0.1", "kappa: 0.21"))),
+       none + " every disturbance: kappa = 0.21 alone is too much"},
+      {with("0.6", "0.5", with("[4, 0]", "[4, 5]")),
+       "no COM balances on feet 1 and 2, even without disturbances: the ground is too steep for its friction"},
+      {with("{x: 0.25}", "{x: -0.3}"), none + ", even without disturbances: they stand at one point"},
+      {with("  support", "  com: [0, 0.4]\n  support", with("kappa: 0.1", "kappa: 0.7")),
+       level + "0.6 of the weight, kappa is 0.7"},
+  };
+  const Workplace place;
+  for (const Start& start : starts) {
+    INFO(start.told);
+    place.write("s.yaml", start.text);
+    const auto plan = place.run("plan s.yaml"), validate = place.run("validate s.yaml");
+    CHECK(plan.status == 2);
+    CHECK(validate.status == 2);
+    CHECK(validate.out == "s.yaml:9:3: start: " + start.told + "\n");
+    CHECK(plan.err == "surefoot: error: " + validate.out);
+  }
+  // Friction that just bears kappa is no fault of the start.
+  place.write("s.yaml", with("kappa: 0.1", "kappa: 0.59"));
+  CHECK_THAT(place.run("validate s.yaml").out, Catch::EndsWith("start stands\n"));
+}
+
+TEST_CASE("A given COM that balances nowhere near is told where it would", "[validate]") {
+  const Workplace place;
+  // Without disturbances the COM lies between the feet, at x = -0.3 and 0.25 (each has reach 0.9 about it).
+  place.write("s.yaml",
+              with("  support", "  com: [0.4, 0.4]\n  support", with("kappa: 0.1, nu: 0.03", "kappa: 0, nu: 0")));
+  CHECK(
+      place.run("validate s.yaml").out ==
+      "s.yaml:9:3: start: not stable on feet 1 and 2: safety factor 0, limited by equilibrium; more than 1 is needed; "
+      "COMs that balance there have x between -0.3 and 0.25\n");
+}
+
+TEST_CASE("A start that no search is needed to refuse is said to be impossible, though the file is in order",
+          "[validate]") {
+  const Workplace place;
+  place.write("s.yaml", with("clearance: 0.1", "clearance: 2"));
+  const auto run = place.run("validate s.yaml");
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Catch::Contains("the start cannot stand: ") && Catch::Contains("keeps the clearance 2"));
+}
+
+TEST_CASE("A foot that hangs below a chain given the wrong way round is named where the start cannot stand",
+          "[validate]") {
+  const Workplace place;
+  place.write("s.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [0, 0]]\n    - vertices: [[4, 0], [0.05, 0]]",
+                             with("{x: 0}", "null")));
+  CHECK_THAT(place.run("validate s.yaml").out,
+             Catch::Contains(
+                 "; foot 2 hangs below chain 1, which runs from right to left there: reverse its vertices?"));
+}
+
+TEST_CASE("Scene and plan in each other's place are told apart", "[validate]") {
+  const Workplace place;
+  place.write("scene.yaml", flat_scene);
+  REQUIRE(place.run("plan scene.yaml --effort 0 -o plan.json").status == 0);
+  REQUIRE(place.shell("'" SUREFOOT_BINARY "' plan scene.yaml --effort 0 > plan.txt").status == 0);
+  CHECK(place.run("check plan.json scene.yaml").err ==
+        "surefoot: error: plan.json:1:1: scene: this is a plan; expected a scene (surefoot check takes SCENE, then "
+        "PLAN)\n");
+  CHECK(place.run("check scene.yaml scene.yaml").err ==
+        "surefoot: error: scene.yaml:1:1: plan: this is a scene; expected a plan (surefoot check takes SCENE, then "
+        "PLAN)\n");
+  CHECK(place.run("check scene.yaml plan.txt").err ==
+        "surefoot: error: plan.txt:1:1: plan: this is a plan printed as text; write it with -o plan.json\n");
+  CHECK(place.run("check scene.yaml plan.json").status == 0);
 }
 
 TEST_CASE("A report of many faults ends with the number of the others", "[validate]") {

@@ -72,6 +72,16 @@ fake sudo <<'END'
 exec "$@"
 END
 
+# Help before there is anything.
+: >"$installed"
+for arguments in --help "test --help" "plan -h"; do
+  # shellcheck disable=SC2086
+  run $arguments
+  expect "$arguments installs and builds nothing" nothing_called
+  expect "$arguments: status 0" test "$status" -eq 0
+  expect "$arguments tells how to go on" grep -q "surefoot test --sanitize" "$work/out"
+done
+
 # A first call on a bare machine.
 echo "cmake installed" >"$installed"
 if ((EUID == 0)); then
@@ -159,6 +169,25 @@ done
 wait
 expect "two first calls build once" test "$(grep -c -- "cmake --build" "$calls")" -eq 1
 expect "and both run" test "$(<"$work/out1")$(<"$work/out2")" = "[$work][plan][1][$work][plan][2]"
+
+# Ctrl-C while it builds. (A background process of a script ignores it unless told otherwise.)
+rm -rf "$tree/build"
+(cd "$work" && FAKE_SECONDS=2 PATH="$fakes:$PATH" exec env --default-signal=INT setsid "$tree/surefoot" plan x) \
+  >"$work/out" 2>"$work/err" </dev/null &
+interrupted=$!
+for ((i = 0; i < 100; ++i)); do says "building in" && break || sleep 0.05; done
+sleep 0.3
+kill -INT -- "-$interrupted"
+wait "$interrupted"
+status=$?
+expect "an interrupted build: status 130" test "$status" -eq 130
+expect "an interrupted build is not called a failure" eval '! says "build failed"'
+expect "an interrupted build leaves no stamp" eval '! stamped'
+run plan x
+expect "and the next call builds" called "cmake --build"
+run bench --help
+expect "help on the benchmarks does not build them" not_called "cmake --preset bench"
+expect "help on the benchmarks is the program's" prints "[$work][bench][--help]"
 
 # Tests.
 sed -i /catch2/d "$installed"

@@ -48,7 +48,7 @@ TEST_CASE("A plan of very many stances is judged", "[robust]") {
   std::string transfers = repeated(transfer, static_cast<std::size_t>(many));
   stances.resize(stances.size() - 2);
   transfers.resize(transfers.size() - 2);
-  place.write("plan.json", R"({"surefoot": 1, "scene": "x", "status": "solved", "stances": [)" + stances +
+  place.write("plan.json", R"({"surefoot": 1, "scene": "scene", "status": "solved", "stances": [)" + stances +
                                R"(], "transfers": [)" + transfers + R"(], "safety_factor": 1})");
   const auto run = place.run("check scene.yaml plan.json");
   CHECK(run.status == 1);

@@ -1,0 +1,148 @@
+#include "planner/start_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gaits/foothold_words.hpp"
+#include "planner/com_window.hpp"
+
+namespace surefoot::planner {
+
+using gaits::Rule;
+
+std::string legs_of(const gaits::Stance& stance) {
+  std::string text;
+  for (int leg = 0; leg < gaits::leg_count; ++leg)
+    if (stance.feet[leg]) text += (text.empty() ? "" : " and ") + std::to_string(leg + 1);
+  return text;
+}
+
+namespace {
+
+/// Where the COMs that balance on two feet lie, as advice; "" if there are none within reach.
+std::string balancing_coms(const gaits::Scene& scene, const gaits::Stance& stance) {
+  const Polygon window = reach_window(stance.feet, scene.robot.reach_max);
+  if (window.empty()) return "";
+  const Polygon polygon = gaits::oracle_of(scene, stance.feet).equilibrium_polygon(window);
+  if (polygon.empty()) return "";
+  const auto [left, right] =
+      std::minmax_element(polygon.begin(), polygon.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  return fmt::format("; COMs that balance there have x between {:.4g} and {:.4g}", left->x(), right->x());
+}
+
+}  // namespace
+
+std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& stance, Rule rule) {
+  const gaits::Robot& robot = scene.robot;
+  for (int leg = 0; leg < gaits::leg_count; ++leg) {
+    if (!stance.feet[leg]) continue;
+    const double distance = (stance.com - stance.feet[leg]->position).norm();
+    if (rule == Rule::reach && !gaits::within_reach(robot, stance.feet[leg]->position, stance.com, stance.com))
+      return fmt::format("foot {} is {:.6g} m from the COM, reach is [{}, {}] m", leg + 1, distance, robot.reach_min,
+                         robot.reach_max);
+    if (rule == Rule::leg_visibility && !scene.terrain.leg_is_free(stance.com, *stance.feet[leg]))
+      return fmt::format("leg {} cuts the terrain on its way from the COM to its foot", leg + 1);
+  }
+  if (rule == Rule::clearance)
+    return fmt::format("the COM is {:.6g} m from the terrain, clearance is {} m",
+                       scene.terrain.distance(stance.com, 2 * robot.clearance + robot.reach_max), robot.clearance);
+  if (const std::string slips = friction_fault(scene, stance); !slips.empty()) return slips;
+  const auto sigma = gaits::safety_factor(scene, gaits::oracle_of(scene, stance.feet), stance.com);
+  return fmt::format("not stable on feet {}: safety factor {:.4g}, limited by {}; more than 1 is needed{}",
+                     legs_of(stance), sigma.value, sigma.critical.name(),
+                     sigma.value > 0 ? "" : balancing_coms(scene, stance));
+}
+
+stability::DisturbanceBox box_of_stances(const gaits::Scene& scene) {
+  if (scene.criterion != gaits::Criterion::frictional) return scene.disturbance;
+  return {.kappa = 0, .nu = 0};
+}
+
+std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stance) {
+  // Forces f of the feet balance a disturbance fx/fy = q only if their sum is along (q, 1), so only if that direction
+  // lies inside the cone spanned by the edges n +- mu t of all friction cones. Where all edges rise these are the
+  // slopes between the least and the greatest e_x / e_y. Equality does not balance (R_SS is open); it is taken for
+  // sure only on level ground, where the slopes are +-mu without rounding.
+  if (scene.criterion == gaits::Criterion::frictional) return "";  // stances need not bear W
+  constexpr double least_rise = 1e-3;  // [1] of an edge, relative; flatter ones lose their slope to rounding
+  constexpr double rounding = 1e-11;   // [1] of a slope, relative; some units in the last place over least_rise
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  bool level = true;
+  for (const auto& foot : stance.feet) {
+    if (!foot) continue;
+    level = level && foot->normal.x() == 0;
+    for (const double mu : {-foot->friction, foot->friction}) {
+      const Eigen::Vector2d edge = foot->normal + mu * Eigen::Vector2d(foot->normal.y(), -foot->normal.x());
+      if (!(edge.y() > least_rise * (1 + foot->friction))) return "";
+      least = std::min(least, edge.x() / edge.y());
+      greatest = std::max(greatest, edge.x() / edge.y());
+    }
+  }
+  const double borne = std::min(greatest, -least) + 0.0, kappa = scene.disturbance.kappa;
+  if (!(kappa > borne + rounding * (1 + std::max(greatest, -least)) || (level && kappa >= borne))) return "";
+  if (borne <= 0 && !level)
+    return fmt::format(
+        "no COM balances on feet {}, even without disturbances: the ground is too steep for its friction",
+        legs_of(stance));
+  return fmt::format(
+      "no COM balances on feet {}: friction bears sideways pushes below {:.6g} of the weight, kappa is {}",
+      legs_of(stance), borne, kappa);
+}
+
+namespace {
+
+/// Proof that no COM within reach of two feet balances every disturbance of a box: limits of reach and balance are
+/// drawn out by more than any rounding, so that a single COM at the very limit is not denied.
+bool no_com_balances(const gaits::Scene& scene, const gaits::Feet& feet, const stability::DisturbanceBox& box) {
+  constexpr double margin = gaits::limit_margin;
+  double extent = scene.robot.reach_max, steepest = 0;
+  for (const auto& foot : feet)
+    if (foot) extent = std::max(extent, foot->position.cwiseAbs().maxCoeff());
+  const auto planes = gaits::oracle_of(scene, feet, box).equilibrium_half_planes();
+  for (const auto& plane : planes) steepest = std::max(steepest, plane.normal.norm());
+  Polygon left = reach_window(feet, scene.robot.reach_max + margin * extent);
+  for (const auto& plane : planes)
+    left = clip_to_half_plane(left, -plane.normal, plane.offset + margin * extent * steepest);
+  return left.empty();
+}
+
+bool same_place(const gaits::Stance& stance) {
+  const gaits::Feet& feet = stance.feet;
+  const auto& one = feet[0] ? feet[0] : feet[1];
+  const auto& other = feet[2] ? feet[2] : feet[1];
+  return one->position == other->position;
+}
+
+}  // namespace
+
+std::string hanging_feet(const gaits::Scene& scene) {
+  std::string text;
+  for (int leg = 0; leg < gaits::leg_count; ++leg) {
+    const auto& foot = scene.start.feet[leg];
+    if (!foot || !gaits::cannot_push_up(*foot)) continue;
+    text += fmt::format("; foot {} hangs below chain {}, which runs from right to left there: reverse its vertices?",
+                        leg + 1, foot->chain);
+  }
+  return text;
+}
+
+BalanceFault balance_fault(const gaits::Scene& scene, const gaits::Stance& stance) {
+  const auto [kappa, nu] = box_of_stances(scene);
+  const std::string nobody = fmt::format("no COM within reach of feet {} ", legs_of(stance));
+  const auto impossible = [&](double p, double q) { return no_com_balances(scene, stance.feet, {p, q}); };
+  if (!impossible(kappa, nu)) return {false, nobody + "was found to balance every disturbance"};
+  if (impossible(0, 0))
+    return {true,
+            nobody + "balances, even without disturbances" + (same_place(stance) ? ": they stand at one point" : "")};
+  const bool push = impossible(kappa, 0), turn = impossible(0, nu);
+  std::string cause = fmt::format("kappa = {} and nu = {} together are too much", kappa, nu);
+  if (push != turn)
+    cause = push ? fmt::format("kappa = {} alone is too much", kappa) : fmt::format("nu = {} m alone is too much", nu);
+  if (push && turn) cause = fmt::format("kappa = {} alone is too much, and so is nu = {} m", kappa, nu);
+  return {true, nobody + "balances every disturbance: " + cause};
+}
+
+}  // namespace surefoot::planner

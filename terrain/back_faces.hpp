@@ -1,0 +1,21 @@
+// Where ground looks at the back of other ground: legal (a thin shelf over a path), but most often a ceiling whose
+// vertices run the wrong way, so that its solid fills the space below.
+#pragma once
+
+#include <optional>
+
+#include "terrain/terrain.hpp"
+
+namespace surefoot::terrain {
+
+struct BackFace {
+  int chain;       ///< the one that turns its back
+  int from_chain;  ///< the one that looks at it
+  Point at;        ///< where [m]
+};
+
+/// The first met by rays of length `within` [m] from the middles of segments on which a foot may stand, along their
+/// normals. Every such segment is asked where there are few, an even choice of them where there are many.
+std::optional<BackFace> back_face_seen(const Terrain& terrain, double within);
+
+}  // namespace surefoot::terrain

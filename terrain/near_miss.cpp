@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <numeric>
+
+#include "terrain/document.hpp"
+
+namespace surefoot::terrain {
+
+namespace {
+
+constexpr std::size_t longest_word = 64;  // longer ones have no near misses worth naming
+
+/// Levenshtein distance, with the swap of two neighbouring letters as one edit, letter case aside.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  const auto same = [](char l, char r) {
+    return std::tolower(static_cast<unsigned char>(l)) == std::tolower(static_cast<unsigned char>(r));
+  };
+  std::array<std::vector<std::size_t>, 3> rows;
+  for (auto& row : rows) row.resize(b.size() + 1);
+  std::iota(rows[0].begin(), rows[0].end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    auto& row = rows[i % 3];
+    const auto &above = rows[(i + 2) % 3], &two_above = rows[(i + 1) % 3];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + !same(a[i - 1], b[j - 1])});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
+        row[j] = std::min(row[j], two_above[j - 2] + 1);
+      }
+    }
+  }
+  return rows[a.size() % 3][b.size()];
+}
+
+}  // namespace
+
+std::string near_miss(std::string_view word, const std::vector<std::string>& candidates) {
+  if (word.size() > longest_word) return "";
+  // A word of which no letter need remain is near to nothing.
+  std::size_t nearest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, std::max<std::size_t>(word.size(), 1));
+  std::string best;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > longest_word) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    best = candidate;
+  }
+  return best;
+}
+
+}  // namespace surefoot::terrain

@@ -1,0 +1,42 @@
+// Chains that turn their backs to each other, and ground in good order, drawn by hand.
+#include <catch2/catch.hpp>
+
+#include "terrain/back_faces.hpp"
+
+using namespace surefoot::terrain;
+
+namespace {
+
+Chain chain(std::vector<Point> vertices, bool foothold = true) {
+  const std::size_t segments = vertices.size() - 1;
+  return {std::move(vertices), std::vector<Surface>(segments, Surface{0.5, foothold})};
+}
+
+const Chain ground = chain({{-1, 0}, {1, 0}, {2, 0.3}, {4, 0}});
+
+}  // namespace
+
+TEST_CASE("A ceiling given like ground turns its back to the ground below", "[back_faces]") {
+  const auto seen = back_face_seen(Terrain({ground, chain({{-0.5, 1}, {0.5, 1}})}), 1.5);
+  REQUIRE(seen);
+  CHECK(seen->chain == 1);
+  CHECK(seen->from_chain == 0);
+  CHECK(seen->at == Point(0, 1));  // over the middle of the first segment
+  CHECK_FALSE(back_face_seen(Terrain({ground, chain({{0.5, 1}, {-0.5, 1}})}), 1.5));
+}
+
+TEST_CASE("What lies behind other ground, too far away or without footholds is not asked", "[back_faces]") {
+  const Chain shelf = chain({{-0.5, 1}, {0.5, 1}}), ceiling = chain({{0.5, 0.9}, {-0.5, 0.9}});
+  CHECK_FALSE(back_face_seen(Terrain({ground, shelf}), 0.999));
+  CHECK_FALSE(back_face_seen(Terrain({ground, ceiling, shelf}), 1.5));  // a plate with two sides
+  CHECK_FALSE(back_face_seen(Terrain({chain({{-1, 0}, {1, 0}}, false), shelf}), 1.5));
+}
+
+TEST_CASE("Ground alone, a V, a riser, an overhang, a closed block look at no back", "[back_faces]") {
+  for (const auto& vertices :
+       std::vector<std::vector<Point>>{{{-1, 1}, {0, 0}, {1, 1}},
+                                       {{-1, 0}, {0, 0}, {0, 1}, {1, 1}},
+                                       {{-1, 0}, {1, 0}, {1, 0.5}, {0, 0.5}, {0, 1}, {2, 1}},  // an overhang
+                                       {{0, 0}, {0, 1}, {1, 1}, {1, 0}, {0, 0}}})  // a block, free space outside
+    CHECK_FALSE(back_face_seen(Terrain({chain(vertices)}), 10));
+}

@@ -57,9 +57,9 @@ class Run {
     return true;
   }
 
-  /// The compensated sum of times.
+  /// The compensated sum of times, which never runs back by what it makes up for.
   void pass(double duration) {
-    const double add = duration - lost_, sum = time_ + add;
+    const double add = duration - lost_, sum = std::max(time_, time_ + add);
     lost_ = (sum - time_) - add;
     time_ = sum;
   }

@@ -41,7 +41,8 @@ AlignedBox2d ground_between(const Scene& scene, double x_from, double x_to) {
 
 int rows_needed(double scale, double reach, double length) {
   const double home = (widest_page - 2 * margin) / scale - 2 * reach;  // a reach is shown on either side
-  return home > 0 ? static_cast<int>(std::ceil(length / home)) : most_rows + 1;
+  const int too_many = most_rows + 1;
+  return home > 0 && length / home < too_many ? static_cast<int>(std::ceil(length / home)) : too_many;
 }
 
 }  // namespace
@@ -63,8 +64,8 @@ AlignedBox2d contents(const Scene& scene, const Plan& plan) {
 
 int Page::row_of(double x) const {
   const double share = (x - rows.front().x_from) / (rows.back().x_to - rows.front().x_from);
-  const int count = static_cast<int>(rows.size());
-  return std::clamp(static_cast<int>(share * count), 0, count - 1);
+  const double last = static_cast<double>(rows.size()) - 1;
+  return share > 0 ? static_cast<int>(std::min(share * (last + 1), last)) : 0;  // numbers that overflow too
 }
 
 Page lay_out(const Scene& scene, const Plan& plan, double top) {

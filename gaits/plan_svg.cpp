@@ -279,7 +279,10 @@ class PlanPicture {
     const double y = row.bottom() + 4;
     const Paint tick{.stroke = faint, .width = 1};
     canvas_.line({row.view(row.window.min()).x(), y}, {row.view(row.window.max()).x(), y}, tick);
-    for (double k = std::ceil(row.window.min().x() / step); k * step <= row.window.max().x(); ++k) {
+    const double first = std::ceil(row.window.min().x() / step), last = row.window.max().x();
+    constexpr int most_ticks = 100;  // a page has room for fewer; so far away that k + 1 is k the last does not come
+    for (int i = 0; i < most_ticks && (first + i) * step <= last; ++i) {
+      const double k = first + i;
       const double x = row.view({k * step, 0}).x();
       canvas_.line({x, y}, {x, y + 4}, tick);
       canvas_.text({x, y + 15}, fmt::format("{:.{}f} m", k == 0 ? 0 : k * step, decimals),

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <span>
 
 #include "stability/frictional.hpp"
+#include "stability/given.hpp"
 
 namespace surefoot::gaits {
 
@@ -150,6 +150,7 @@ bool is_stable(const Scene& scene, const RobustOracle& oracle, const Vector2d& c
     case Criterion::both:
       if (!oracle.robust(com)) return false;
   }
+  stability::require(scene.restitution.has_value(), "scene: the criterion needs a restitution");
   return stability::frictionally_stable(oracle.posture(), com, *scene.restitution);
 }
 
@@ -222,7 +223,8 @@ std::optional<Rule> broken_transfer_rule(const Scene& scene, const Stance& from,
 }
 
 void rate(const Scene& scene, Plan& plan) {
-  assert(plan.stances.empty() || plan.transfers.size() + 1 == plan.stances.size());
+  stability::require(plan.transfers.size() + (plan.stances.empty() ? 0 : 1) == plan.stances.size(),
+                     "plan: expected one stance more than transfers");
   double least = std::numeric_limits<double>::infinity();
   for (Stance& stance : plan.stances) {
     const auto sigma = safety_factor(scene, oracle_of(scene, stance.feet), stance.com);

@@ -5,6 +5,9 @@
 // Limits are closed: a foot at exactly reach_max is within reach. What these rules accept, the verifier accepts too:
 // its slack is wider than theirs. Whoever chooses a COM should choose it for drawn_in(robot), so that no reader of the
 // plan needs any slack at all.
+//
+// Errors: std::invalid_argument where nothing is planted (oracle_of) or the scene's criterion misses its restitution or
+// its two contacts (is_stable). COMs are finite (asserted). Legs that there are not break Rule::gait.
 #pragma once
 
 #include <cstddef>
@@ -98,7 +101,9 @@ std::optional<Rule> broken_transfer_rule(const Scene& scene, const Stance& from,
                                          const std::optional<terrain::Foothold>& swing_from,
                                          const stability::RobustOracle& oracle);
 
-/// Fills in safety factors and limits of every stance and transfer, and of the plan.
+/// Fills in safety factors and limits of every stance and transfer, and of the plan. Throws std::invalid_argument for a
+/// plan that has not one stance more than transfers, or a stance without feet; std::out_of_range for a leg that there
+/// is not.
 void rate(const Scene& scene, Plan& plan);
 
 }  // namespace surefoot::gaits

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -48,21 +49,21 @@ void guard_standard_streams() {
 
 namespace {
 
-std::atomic<bool> interruption_asked = false;
-static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may write it
+/// When [ns] the interruption was asked for, 0: not yet. One variable, as two signals may be handled by two threads at
+/// the same time.
+std::atomic<std::int64_t> interruption_asked = 0;
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);  // so that a signal handler may write it
 
 /// The second of two signals ends the program, unless they come together: a terminal's or a supervisor's one request
 /// may arrive twice.
 extern "C" void ask_interruption(int signal) {
-  constexpr long together = 200'000'000;  // [ns]
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  static timespec first;
-  if (!interruption_asked.exchange(true)) {
-    first = now;
-    return;
-  }
-  if ((now.tv_sec - first.tv_sec) * 1'000'000'000L + now.tv_nsec - first.tv_nsec < together) return;
+  constexpr std::int64_t together = 200'000'000;  // [ns]
+  timespec clock{};
+  ::clock_gettime(CLOCK_MONOTONIC, &clock);
+  const std::int64_t now = clock.tv_sec * std::int64_t{1'000'000'000} + clock.tv_nsec;
+  std::int64_t first = 0;
+  if (interruption_asked.compare_exchange_strong(first, now)) return;
+  if (now - first < together) return;
   end_by_signal(signal);
 }
 
@@ -70,14 +71,14 @@ extern "C" void ask_interruption(int signal) {
 
 // Where SIGINT is ignored (a job in the background of a script), it stays ignored.
 Interruption::Interruption() {
-  interruption_asked = false;
+  interruption_asked = 0;
   ::sigaction(SIGINT, nullptr, &before_);
   if (before_.sa_handler != SIG_IGN) std::signal(SIGINT, ask_interruption);
 }
 
 Interruption::~Interruption() { ::sigaction(SIGINT, &before_, nullptr); }
 
-bool Interruption::asked() const { return interruption_asked; }
+bool Interruption::asked() const { return interruption_asked != 0; }
 
 void write_stdout(std::string_view text) {
   const int fault = write_all(STDOUT_FILENO, text);

@@ -53,6 +53,18 @@ std::vector<stability::Contact> read_contacts(const Node& root, std::size_t leas
   return result;
 }
 
+DisturbedPosture read_disturbed_posture(const Node& root) {
+  root.allow_only({"contacts", "com", "rho", "kappa", "nu", "restitution"}, "posture");
+  DisturbedPosture posture;
+  posture.contacts = read_contacts(root, 1, 3);
+  posture.rho = root.require("rho", "posture").positive("rho");
+  posture.box.kappa = root.require("kappa", "posture").not_negative("kappa");
+  posture.box.nu = root.require("nu", "posture").not_negative("nu");
+  if (const Node* e = root.find("restitution")) posture.restitution = read_restitution(*e);
+  if (const Node* com = root.find("com")) posture.com = read_point(*com, "com");
+  return posture;
+}
+
 std::vector<double> read_numbers(const std::string& option, const std::string& text, std::size_t count,
                                  const char* form) {
   std::vector<double> values;

@@ -13,6 +13,7 @@
 #include "gaits/verifier.hpp"
 #include "planner/refine_model.hpp"
 #include "planner/refine_window.hpp"
+#include "stability/given.hpp"
 
 namespace surefoot::planner {
 
@@ -153,6 +154,7 @@ bool refine_window(const Scene& scene, Plan& plan, const Timeline& timeline, int
 
 Plan refine_unverified(const Scene& scene, const Plan& plan, const RefineOptions& options) {
   if (plan.status != gaits::Status::solved || plan.stances.empty()) return plan;
+  stability::require(plan.stances.size() == plan.transfers.size() + 1, "plan: expected one stance more than transfers");
   Plan out = plan;
   Factors factors = factors_of(scene, plan);
   out.safety_factor_before_refinement = factors.least;

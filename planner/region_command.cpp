@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "planner/canned_scenes.hpp"
@@ -18,7 +19,6 @@ namespace {
 
 using terrain::Document;
 using terrain::InputError;
-using terrain::Node;
 
 /// What the figure is about, with all that it refers to.
 struct Subject {
@@ -44,16 +44,14 @@ void read_scene(const RegionArguments& arguments, Subject& subject) {
 void read_posture(const RegionArguments& arguments, Subject& subject) {
   const std::string& path = *arguments.posture;
   const Document document = read_posture_document(path, "surefoot region takes a scene without --posture");
-  const Node& root = document.root();
-  root.allow_only({"contacts", "com", "rho", "kappa", "nu", "restitution"}, "posture");
-  subject.figure.contacts = read_contacts(root, 1, 3);
+  DisturbedPosture posture = read_disturbed_posture(document.root());
+  subject.figure.contacts = std::move(posture.contacts);
   for (std::size_t i = 1; i <= subject.figure.contacts.size(); ++i)
     subject.figure.contact_names.push_back(std::to_string(i));
-  subject.figure.radius_of_gyration = root.require("rho", "posture").positive("rho");
-  subject.figure.box.kappa = root.require("kappa", "posture").not_negative("kappa");
-  subject.figure.box.nu = root.require("nu", "posture").not_negative("nu");
-  if (const Node* e = root.find("restitution")) subject.restitution = read_restitution(*e);
-  if (const Node* com = root.find("com")) subject.figure.com = read_point(*com, "com");
+  subject.figure.radius_of_gyration = posture.rho;
+  subject.figure.box = {{}, posture.box.kappa, posture.box.nu};
+  subject.figure.com = posture.com;
+  subject.restitution = posture.restitution;
   subject.figure.title = path == "-" ? "posture" : std::filesystem::path(path).stem().string();
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <stdexcept>
 #include <system_error>
@@ -16,6 +17,7 @@
 #include "planner/ompl_search.hpp"
 #include "planner/problem.hpp"
 #include "planner/shorten.hpp"
+#include "stability/given.hpp"
 
 namespace surefoot::planner {
 
@@ -291,6 +293,14 @@ Clock::time_point deadline_after(Clock::time_point begin, double limit) {
   return begin + std::chrono::duration_cast<Clock::duration>(time);
 }
 
-gaits::Plan search(const gaits::Scene& scene, const SearchOptions& options) { return Search(scene, options).run(); }
+gaits::Plan search(const gaits::Scene& scene, const SearchOptions& options) {
+  const auto& objectives = gaits::objective_names();
+  if (std::find(objectives.begin(), objectives.end(), options.objective) == objectives.end())
+    throw std::invalid_argument("unknown objective '" + options.objective + "'");
+  stability::require(options.seed >= 1 && options.seed <= gaits::greatest_seed, "seed: out of range");
+  stability::require(options.effort >= 0 && !std::isnan(options.time_limit),
+                     "search: expected effort >= 0, a time limit");
+  return Search(scene, options).run();
+}
 
 }  // namespace surefoot::planner

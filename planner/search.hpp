@@ -34,7 +34,8 @@ const std::vector<std::string>& planner_names();
 /// A plan whose safety factors are filled in, or the reason there is none. Deterministic for a seed as long as the time
 /// limit is not reached, whatever the number of processors (two are used). The caller verifies. Throws
 /// terrain::InputError ("file:line:column: start: ...") for a start that is bad input (StartChoice::decided in
-/// problem.hpp), std::invalid_argument for a planner that is not in planner_names().
+/// problem.hpp), std::invalid_argument for a planner or an objective that there is not, a seed out of range, an effort
+/// below 0.
 gaits::Plan search(const gaits::Scene& scene, const SearchOptions& options);
 
 /// When a time limit [s] that began to run at `begin` is reached.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "gaits/motion_svg.hpp"
 #include "planner/canned_scenes.hpp"
@@ -11,15 +12,14 @@
 #include "planner/console.hpp"
 #include "planner/figure_outputs.hpp"
 #include "planner/posture_input.hpp"
+#include "planner/pushed_posture.hpp"
 #include "planner/stance_input.hpp"
 
 namespace surefoot::planner {
 namespace {
 
-using stability::BodyState;
 using stability::HybridBody;
 using terrain::InputError;
-using terrain::Node;
 
 constexpr double earth_gravity = 9.81;    // [m/s^2]
 constexpr double usual_time_limit = 100;  // [s]
@@ -28,13 +28,8 @@ constexpr double usual_size = 1e-6;       // of the extent
 struct Subject {
   std::string title = "random postures";
   SampleRequest request;
-  std::optional<Eigen::Vector3d> q, q_rate, heights, heights_rate;
+  Push push;
 };
-
-Eigen::Vector3d triple(const Node& node, const char* what) {
-  const auto& items = node.items(what, 3);
-  return {items[0].number(what), items[1].number(what), items[2].number(what)};
-}
 
 std::optional<Eigen::Vector3d> triple(const std::optional<std::string>& text, const char* option, const char* form) {
   if (!text) return std::nullopt;
@@ -50,19 +45,13 @@ double positive(double value, const char* option) {
 
 void read_file(const std::string& path, Subject& subject) {
   const terrain::Document document = read_posture_document(path, "surefoot simulate takes a scene with --scene");
-  const Node& root = document.root();
-  root.allow_only({"contacts", "com", "rho", "kappa", "nu", "restitution", "gravity", "q", "q_rate", "heights",
-                   "heights_rate"},
-                  "posture");
-  subject.request.contacts = read_contacts(root, 1, 2);
-  subject.request.rho = root.require("rho", "posture").positive("rho");
-  if (const Node* com = root.find("com")) subject.request.com = read_point(*com, "com");
-  if (const Node* e = root.find("restitution")) subject.request.options.restitution = read_restitution(*e);
-  if (const Node* g = root.find("gravity")) subject.request.gravity = g->positive("gravity");
-  if (const Node* q = root.find("q")) subject.q = triple(*q, "q");
-  if (const Node* q = root.find("q_rate")) subject.q_rate = triple(*q, "q_rate");
-  if (const Node* h = root.find("heights")) subject.heights = triple(*h, "heights");
-  if (const Node* h = root.find("heights_rate")) subject.heights_rate = triple(*h, "heights_rate");
+  PushedPosture posture = read_pushed_posture(document.root());
+  subject.request.contacts = std::move(posture.contacts);
+  subject.request.rho = posture.rho;
+  subject.request.com = posture.com;
+  if (posture.restitution) subject.request.options.restitution = *posture.restitution;
+  if (posture.gravity) subject.request.gravity = *posture.gravity;
+  subject.push = posture.push;
   subject.title = path == "-" ? "posture" : std::filesystem::path(path).stem().string();
 }
 
@@ -96,10 +85,10 @@ Subject read_subject(const SimulateArguments& a) {
   }
   if (a.restitution) request.options.restitution = checked_restitution(*a.restitution, "--restitution");
   if (a.gravity) request.gravity = positive(*a.gravity, "--gravity");
-  if (const auto given = triple(a.q, "--q", "rx,ry,theta")) subject.q = given;
-  if (const auto given = triple(a.q_rate, "--q-rate", "vx,vy,omega")) subject.q_rate = given;
-  if (const auto given = triple(a.heights, "--heights", "h1,h2,theta")) subject.heights = given;
-  if (const auto given = triple(a.heights_rate, "--heights-rate", "u1,u2,omega")) subject.heights_rate = given;
+  if (const auto given = triple(a.q, "--q", "rx,ry,theta")) subject.push.q = given;
+  if (const auto given = triple(a.q_rate, "--q-rate", "vx,vy,omega")) subject.push.q_rate = given;
+  if (const auto given = triple(a.heights, "--heights", "h1,h2,theta")) subject.push.heights = given;
+  if (const auto given = triple(a.heights_rate, "--heights-rate", "u1,u2,omega")) subject.push.heights_rate = given;
   const bool lacks_com = !request.com && !a.sample;
   if (request.options.restitution == 0)
     throw InputError(fmt::format("restitution is missing: expected in the posture or scene, or as --restitution{}",
@@ -115,32 +104,11 @@ Subject read_subject(const SimulateArguments& a) {
   return subject;
 }
 
-BodyState start_of(const HybridBody& body, const Subject& subject) {
-  if ((subject.q || subject.q_rate) && (subject.heights || subject.heights_rate))
-    throw InputError("the start is given twice: expected q and q_rate, or heights and heights_rate");
-  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  BodyState state;
-  if (subject.heights || subject.heights_rate) {
-    if (body.parallel_normals())
-      throw InputError(
-          "heights: the normals of the contacts are parallel and leave the place open: give --q and --q-rate (in JSON "
-          "q and q_rate)");
-    state = body.state_at_heights(subject.heights.value_or(zero), subject.heights_rate.value_or(zero));
-  } else {
-    state = body.state_at(subject.q.value_or(zero), subject.q_rate.value_or(zero));
-  }
-  for (int i = 0; i < body.contacts(); ++i)
-    if (!(state.h[static_cast<std::size_t>(i)] >= 0))
-      throw InputError(fmt::format("contact {} starts {:.6g} m below the ground, expected a height >= 0", i + 1,
-                                   -state.h[static_cast<std::size_t>(i)]));
-  return state;
-}
-
 SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
   SimulateRecord record;
   record.title = subject.title;
   record.restitution = subject.request.options.restitution;
-  record.start = start_of(body, subject);
+  record.start = start_of(body, subject.push);
   record.run = stability::simulate(body, record.start, subject.request.options_for(body),
                                    [&record](const stability::HybridEvent& event) {
                                      if (record.events.size() < most_events) record.events.push_back(event);
@@ -158,7 +126,7 @@ int run_simulate(const SimulateArguments& arguments) {
                         arguments.scene ? arguments.scene : arguments.posture);
   if (arguments.sample) {
     if (arguments.svg) throw InputError("--svg: a sample of many runs has no picture");
-    if (subject.q || subject.q_rate || subject.heights || subject.heights_rate)
+    if (const Push& push = subject.push; push.q || push.q_rate || push.heights || push.heights_rate)
       throw InputError("--sample draws the pushes: leave out q, q_rate, heights and heights_rate");
     if (!request.contacts.empty() && request.contacts.size() != 2)
       throw InputError("--sample: expected a posture of two contacts");

@@ -1,12 +1,14 @@
 #include "stability/dyadic.hpp"
 
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
 namespace surefoot::stability {
 
 Dyadic::Dyadic(double value) {
+  assert(std::isfinite(value));
   if (value == 0) return;
   int exponent;
   const auto digits = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));

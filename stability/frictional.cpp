@@ -1,10 +1,10 @@
 #include "stability/frictional.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "stability/decisions.hpp"
+#include "stability/given.hpp"
 #include "stability/guard.hpp"
 #include "stability/point_test.hpp"
 #include "stability/polynomial_frame.hpp"
@@ -14,12 +14,16 @@ namespace {
 
 constexpr DisturbanceBox gravity{};
 
+void require_two(const Posture& posture) {
+  require(posture.contacts() == 2, "frictional stability is about two contacts");
+}
+
 /// Frames of one COM, the exact one made when first needed.
 class GravityQuery {
  public:
   GravityQuery(const Posture& posture, const Eigen::Vector2d& com)
       : posture_(posture), com_(com), frame_(posture.frame(com)) {
-    assert(posture.contacts() == 2 && "frictional stability is about two contacts");
+    require_two(posture);
     double radius = 0;
     for (const auto& at : {frame_.at[0], frame_.at[1]}) radius = std::max(radius, std::abs(at.r.x) + std::abs(at.r.y));
     guard_ = GuardScale(posture.edge_bound(), posture.rho2(), gravity).at(radius);
@@ -101,7 +105,7 @@ bool converges_exactly(const Frame<Dyadic>& frame, double restitution) {
 }
 
 bool clatters_to_rest(GravityQuery& query, double restitution) {
-  assert(restitution > 0 && restitution < 1);
+  require_restitution(restitution);
   const double x = normal_product(query.frame(), 0, 1), error = query.guard().denominator;
   if (x > error) return false;
   const double d1 = normal_product(query.frame(), 0, 0), d2 = normal_product(query.frame(), 1, 1);
@@ -137,6 +141,7 @@ bool faces_upward(const Posture& posture) {
 }
 
 bool kinematic_strong(const Posture& posture, const Eigen::Vector2d& com) {
+  require_two(posture);
   if (!PointQuery(posture, com, gravity).equilibrium()) return false;
   GravityQuery query(posture, com);
   return !failed_mode(posture, query);
@@ -162,6 +167,8 @@ FrictionalVerdict frictional_verdict(const Posture& posture, const Eigen::Vector
 
 bool frictionally_stable(const Posture& posture, const Eigen::Vector2d& com, double restitution) {
   ++decisions.frictional;
+  require_two(posture);
+  require_restitution(restitution);
   if (!faces_upward(posture)) return false;
   GravityQuery query(posture, com);
   return clatters_to_rest(query, restitution) && PointQuery(posture, com, gravity).equilibrium() &&

@@ -9,6 +9,8 @@
 // Guarantee: verdicts are decided for the doubles given: by doubles with a bound of their rounding error, else in exact
 // numbers. All inequalities are strict: a boundary counts as not stable, and so does a foot exactly in line with the
 // other along its normal (a mode then has no acceleration that would lead back).
+// Errors: std::invalid_argument for a posture that has not two contacts or a restitution that is not between 0 and 1,
+// ends excluded. COMs are finite (asserted).
 #pragma once
 
 #include <Eigen/Core>

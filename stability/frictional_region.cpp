@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <cassert>
 #include <cmath>
 
 #include "stability/frictional_lines.hpp"
+#include "stability/given.hpp"
+#include "stability/region_setup.hpp"
 #include "stability/robust_oracle.hpp"
 
 namespace surefoot::stability {
@@ -157,12 +158,15 @@ std::vector<Panel> integrate_strip(FrictionalLines& lines, double from, double t
 
 FrictionalRegion frictional_region(std::span<const Contact> contacts, double radius_of_gyration, double restitution,
                                    const FrictionalRegionOptions& options) {
-  assert(contacts.size() == 2 && restitution > 0 && restitution < 1);
+  require(contacts.size() == 2, "frictional stability is about two contacts");
+  require_restitution(restitution);
+  require(positive(options.area_tolerance), "region: expected tolerances to be numbers > 0");
+  require_window(options.window);
+  const RobustOracle oracle(contacts, radius_of_gyration, DisturbanceBox{});
   FrictionalRegion region;
   region.restitution = restitution;
   region.window = options.window.value_or(default_window(contacts, radius_of_gyration));
   const Vector2d low = region.window.min(), high = region.window.max();
-  const RobustOracle oracle(contacts, radius_of_gyration, DisturbanceBox{});
   for (const Vector2d& corner : oracle.equilibrium_polygon({low, {high.x(), low.y()}, high, {low.x(), high.y()}}))
     region.strip.extend(corner);
   if (region.strip.isEmpty() || !(region.strip.volume() > 0)) {

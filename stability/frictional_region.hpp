@@ -49,7 +49,8 @@ struct FrictionalRegion {
   double equilibrium_area() const { return strip.isEmpty() ? 0 : strip.volume(); }
 };
 
-/// Two contacts, radius of gyration [m] > 0, 0 < restitution < 1.
+/// Two contacts, radius of gyration [m] > 0, 0 < restitution < 1; what is not throws std::invalid_argument, as for
+/// region().
 FrictionalRegion frictional_region(std::span<const Contact> contacts, double radius_of_gyration, double restitution,
                                    const FrictionalRegionOptions& options = {});
 

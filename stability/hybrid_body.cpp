@@ -2,9 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "stability/given.hpp"
 
 namespace surefoot::stability {
 
@@ -26,7 +27,11 @@ HybridBody::HybridBody(std::span<const Contact> contacts, const Vector2d& com, d
                        double gravity, bool linearised)
     : count_(static_cast<int>(contacts.size())), com_(com), rho_(radius_of_gyration), rho2_(rho_ * rho_),
       gravity_(gravity), extent_(rho_), linearised_(linearised) {
-  assert((count_ == 1 || count_ == 2) && rho_ > 0 && gravity > 0);
+  require(contacts.size() == 1 || contacts.size() == 2, "contacts: expected 1 or 2");
+  require_radius_of_gyration(rho_);
+  require(positive(gravity), "gravity: expected a number > 0 [m/s^2]");
+  require(com.allFinite(), "COM: expected finite numbers");
+  require_contacts(contacts);
   for (int i = 0; i < count_; ++i) {
     ground_[i] = contacts[i].position;
     arm_[i] = ground_[i] - com;
@@ -65,13 +70,19 @@ BodyState HybridBody::state_at(const Vector3d& q, const Vector3d& q_rate) const 
   return state;
 }
 
+bool is_finite(const HybridBody& body, const BodyState& state) {
+  double zero = 0 * state.theta + 0 * state.omega;  // zero times a number is zero only if it is finite
+  for (int i = 0; i < body.contacts(); ++i) zero += 0 * state.h[i] + 0 * state.rate[i] + 0 * state.slip[i];
+  return zero == 0 && state.r.allFinite() && state.v.allFinite();
+}
+
 bool HybridBody::parallel_normals() const {
   constexpr double least = 1e-12;  // sine of the angle: beyond, r would not be determined to a few digits
   return count_ < 2 || std::abs(cross(normal_[0], normal_[1])) < least;
 }
 
 BodyState HybridBody::state_at_heights(const Vector3d& heights, const Vector3d& heights_rate) const {
-  assert(!parallel_normals());
+  require(!parallel_normals(), "heights do not tell the place where the normals are parallel");
   Eigen::Matrix2d normals;
   normals << normal_[0].transpose(), normal_[1].transpose();
   const double theta = heights.z(), omega = heights_rate.z();

@@ -27,7 +27,7 @@ struct BodyState {
 class HybridBody {
  public:
   /// `linearised`: [OR-H, (5)-(6)], arms and accelerations as in the nominal posture. One or two contacts; normals
-  /// of any length; rho and gravity [m/s^2] > 0.
+  /// of any length; rho and gravity [m/s^2] > 0. Throws std::invalid_argument for anything else.
   HybridBody(std::span<const Contact> contacts, const Eigen::Vector2d& com, double radius_of_gyration, double gravity,
              bool linearised = false);
 
@@ -49,7 +49,8 @@ class HybridBody {
 
   /// From q = (r_x, r_y, theta) and its rates. Heights within rounding of 0 are 0.
   BodyState state_at(const Eigen::Vector3d& q, const Eigen::Vector3d& q_rate) const;
-  /// From q' = (h_1, h_2, theta) and its rates [OR-H, (5)]; the two normals must not be parallel.
+  /// From q' = (h_1, h_2, theta) and its rates [OR-H, (5)]; throws std::invalid_argument where the
+  /// two normals are parallel.
   BodyState state_at_heights(const Eigen::Vector3d& heights, const Eigen::Vector3d& heights_rate) const;
   bool parallel_normals() const;
 
@@ -82,6 +83,9 @@ class HybridBody {
   std::array<Eigen::Vector2d, 2> ground_, arm_, normal_, tangent_;
   std::array<double, 2> friction_;
 };
+
+/// Whether all numbers of a state, and of its contacts, are finite.
+bool is_finite(const HybridBody& body, const BodyState& state);
 
 /// a turned by a quarter.
 inline Eigen::Vector2d quarter(const Eigen::Vector2d& a) { return {-a.y(), a.x()}; }

@@ -1,10 +1,10 @@
 #include "stability/hybrid_dynamics.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "stability/given.hpp"
 #include "stability/hybrid_impact.hpp"
 #include "stability/hybrid_motion.hpp"
 #include "stability/point_test.hpp"
@@ -29,9 +29,9 @@ class Run {
   HybridRun go() {
     using enum HybridRun::Outcome;
     while (!ended_) {
-      if (time_ >= options_.time_limit || run_.collisions + work_of_mode * run_.modes > options_.most_collisions)
+      if (!(time_ < options_.time_limit) || run_.collisions + work_of_mode * run_.modes > options_.most_collisions)
         end(undecided);
-      else if (body_.excursion(state_) > options_.neighbourhood) end(left);
+      else if (!(body_.excursion(state_) <= options_.neighbourhood)) end(left);  // so do numbers that overflow
       else if (!impacts()) none_closed() ? fly() : move();
     }
     run_.state = state_;
@@ -57,9 +57,9 @@ class Run {
     return true;
   }
 
-  /// The compensated sum of times.
+  /// The compensated sum of times, which never runs back by what it makes up for.
   void pass(double duration) {
-    const double add = duration - lost_, sum = time_ + add;
+    const double add = duration - lost_, sum = std::max(time_, time_ + add);
     lost_ = (sum - time_) - add;
     time_ = sum;
   }
@@ -248,7 +248,8 @@ class Run {
   void move_in(const ContactMode& mode) {
     const double begin = time_, begin_lost = lost_;
     const auto sample = [&](double time, const BodyState& state) {
-      time_ = begin + time;
+      time_ = begin, lost_ = begin_lost;
+      pass(time);  // as at the end, so that time never runs back by a rounding
       state_ = state;
       tell(Kind::sample, 0);
     };
@@ -275,6 +276,7 @@ class Run {
       case slips: return tell(Kind::slips, i);
       case reaches: state_.h[i] = 0; return tell(Kind::reaches, i);
       case leaves: return end(HybridRun::Outcome::left);
+      case work:
       case time: return end(HybridRun::Outcome::undecided);
     }
   }
@@ -287,6 +289,11 @@ class Run {
   double time_ = 0, lost_ = 0, speed_ = 0, energy_;
   bool ended_ = false;
 };
+
+void require_start(const HybridBody& body, const BodyState& start) {
+  require(is_finite(body, start), "start: expected finite numbers");
+  for (int i = 0; i < body.contacts(); ++i) require(start.h[i] >= 0, "start: expected heights >= 0");
+}
 
 }  // namespace
 
@@ -301,7 +308,9 @@ const char* name(HybridRun::Outcome outcome) {
 
 HybridRun simulate(const HybridBody& body, const BodyState& start, const HybridOptions& options,
                    const std::function<void(const HybridEvent&)>& watch) {
-  assert(options.restitution > 0 && options.restitution < 1);
+  require_restitution(options.restitution);
+  require(options.neighbourhood > 0 && options.time_limit > 0, "limits of a run: expected numbers > 0");
+  require_start(body, start);
   return Run(body, start, options, watch).go();
 }
 

@@ -61,7 +61,7 @@ struct HybridRun {
     rest,          ///< the body stands still, balanced [theory section 3]
     left,          ///< it left the neighbourhood
     inconsistent,  ///< no contact mode is consistent
-    undecided      ///< the time limit or most_collisions was reached
+    undecided      ///< the time limit, most_collisions, or most_steps of a motion (hybrid_motion.hpp) was reached
   } outcome = Outcome::undecided;
   double time = 0;  ///< [s] at the end
   BodyState state;  ///< at the end
@@ -73,7 +73,8 @@ struct HybridRun {
 
 const char* name(HybridRun::Outcome outcome);
 
-/// From a state with all heights >= 0. `watch` is told of every event.
+/// From a state with all heights >= 0. `watch` is told of every event. Throws std::invalid_argument for a start that is
+/// not finite or below the ground, a restitution that is not between 0 and 1, limits that are not positive.
 HybridRun simulate(const HybridBody& body, const BodyState& start, const HybridOptions& options,
                    const std::function<void(const HybridEvent&)>& watch = {});
 

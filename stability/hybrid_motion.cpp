@@ -97,8 +97,8 @@ class Motion {
     return root([&](double t) { return value(guard, step(from, t)); }, low, high, at_low, at_high).second;
   }
 
-  /// The one step to take: grows and shrinks with the error.
-  double advance(Values& y, double& s) const {
+  /// The one step to take: grows and shrinks with the error. Counts what it tries, up to most_steps.
+  double advance(Values& y, double& s, int& tried) const {
     constexpr double tolerance = 1e-13, safety = 0.9, least_factor = 0.2, most_factor = 4;
     for (;;) {
       Values error{}, rates{};
@@ -110,7 +110,8 @@ class Motion {
         if (scale > 0) worst = std::max(worst, std::abs(error[k]) / (tolerance * scale));
       }
       const double factor = safety * std::pow(std::max(worst, 1e-10), -0.125), taken = s;
-      if (worst <= 1 || s < 1e-300) {
+      tried += worst <= 1 ? 1 : refused_step;
+      if (worst <= 1 || tried >= most_steps) {
         y = to;
         s *= std::clamp(factor, 1.0, most_factor);
         return taken;
@@ -150,6 +151,7 @@ MotionEnd move_in_mode(const HybridBody& body, BodyState& state, const ContactMo
   const Motion motion(body, mode, limits);
   const auto guards = motion.guards();
   Values y = pack(state);
+  int tried = 0;
   double time = 0, s = first_step * std::sqrt(body.rho() / body.gravity());
   for (;;) {
     s = std::min(s, limits.time - time);
@@ -159,7 +161,8 @@ MotionEnd move_in_mode(const HybridBody& body, BodyState& state, const ContactMo
       return {MotionEnd::Cause::time, 0, time};
     }
     const Values from = y;
-    const double taken = motion.advance(y, s);
+    if (tried >= most_steps) return {MotionEnd::Cause::work, 0, time};
+    const double taken = motion.advance(y, s, tried);
     MotionEnd end;
     double first = taken + 1;
     for (const auto& guard : guards) {

@@ -14,11 +14,17 @@ struct MotionEnd {
     slips,    ///< a rolling contact's force reaches the edge of the friction cone
     reaches,  ///< the open `contact` reaches the ground
     leaves,   ///< the neighbourhood is left
+    work,     ///< `most_steps` were tried: some component is too small for its error to be kept
     time      ///< the time limit
   } cause = Cause::time;
   int contact = 0;
   double time = 0;  ///< [s] since the begin
 };
+
+/// Steps tried in one mode: usual motions take tens to hundreds. Feet at one point, of which one slides, have no height
+/// to keep, and steps would shrink for ever.
+constexpr int most_steps = 10'000;
+constexpr int refused_step = 10;  ///< counts as so many: in usual motions they are rare
 
 struct MotionLimits {
   double excursion = 0;  ///< [m], see HybridBody::excursion

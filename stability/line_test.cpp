@@ -61,6 +61,7 @@ std::optional<double> probe_beyond(double lambda, Test&& test) {
 LineQuery::LineQuery(const Posture& posture, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                      const DisturbanceBox& box)
     : posture_(posture), from_(from), to_(to), box_(box) {
+  assert(from.allFinite() && to.allFinite());
   for (int i = 0; i < posture.contacts(); ++i) radius_ = std::max(radius_, (posture.position(i) - from).lpNorm<1>());
   radius_ += (to - from).lpNorm<1>();
 }

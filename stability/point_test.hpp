@@ -2,6 +2,7 @@
 // these cannot tell.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -15,7 +16,9 @@ namespace surefoot::stability {
 class PointQuery {
  public:
   PointQuery(const Posture& posture, const Eigen::Vector2d& com, const DisturbanceBox& box)
-      : posture_(posture), com_(com), box_(box) {}
+      : posture_(posture), com_(com), box_(box) {
+    assert(com.allFinite());
+  }
 
   /// z . g > 0 at every corner of W for every facet (theory section 3).
   bool equilibrium() const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "stability/given.hpp"
 #include "stability/guard.hpp"
 
 namespace surefoot::stability {
@@ -33,7 +34,7 @@ Vec2<double> scaled_normal(const Eigen::Vector2d& n) {
 
 Posture::Posture(std::span<const Contact> contacts, double radius_of_gyration, Modes modes)
     : count_(static_cast<int>(contacts.size())), rho_(radius_of_gyration), rho2_(rho_ * rho_) {
-  assert(count_ >= 1 && count_ <= 3 && "1 to 3 contacts");
+  require(contacts.size() >= 1 && contacts.size() <= 3, "contacts: expected 1 to 3");
   assert(std::isfinite(rho_) && rho_ > 0 && "radius of gyration must be positive");
   for (int i = 0; i < count_; ++i) {
     const Contact& c = contacts[i];
@@ -89,12 +90,14 @@ Dyadic squared(double value) { return Dyadic(value) * Dyadic(value); }
 }  // namespace
 
 Frame<double> Posture::frame(const Eigen::Vector2d& com) const {
+  assert(com.allFinite());
   return make_frame<double>(count_, normal_, friction_, rho2_, [&](int i) {
     return Vec2<double>{position_[i].x() - com.x(), position_[i].y() - com.y()};
   });
 }
 
 Frame<Dual> Posture::dual_frame(const Eigen::Vector2d& com) const {
+  assert(com.allFinite());
   return make_frame<Dual>(count_, normal_, friction_, rho2_, [&](int i) {
     return Vec2<Dual>{{position_[i].x() - com.x(), -1, 0}, {position_[i].y() - com.y(), 0, -1}};
   });

@@ -27,8 +27,9 @@ inline bool same(const Vec2<double>& a, const Vec2<double>& b) { return a.x == b
 class Posture {
  public:
   static constexpr int most_modes = 22;  // of three contacts: all break, 3 rolls, 6 slides, 12 pairs of slides
-  /// Asserts on non-finite numbers, a count outside 1..3, negative friction, zero normals, rho <= 0.
   enum class Modes { listed, deferred };
+  /// Throws std::invalid_argument for a count outside 1..3. Asserts on non-finite numbers, negative friction, zero
+  /// normals, rho <= 0 (RobustOracle throws).
   explicit Posture(std::span<const Contact> contacts, double radius_of_gyration, Modes modes = Modes::listed);
   /// To be called once before modes() and turn_sign() if the modes were deferred.
   void list_modes();

@@ -98,7 +98,7 @@ class Finish {
 };
 
 /// The modes at a point: by the oracle, or for boxes that are not about gravity by rows in doubles with their error
-/// bound; none where that does not decide.
+/// bound; none where that does not decide, or the oracle finds no equilibrium (a sliver as thin as rounding).
 class ModesAt {
  public:
   ModesAt(std::span<const Contact> contacts, double rho, const RegionSetup& setup, const WrenchBox& box,
@@ -110,6 +110,7 @@ class ModesAt {
   std::optional<std::vector<ContactMode>> operator()(const Vector2d& x) const {
     std::vector<ContactMode> list;
     if (oracle_) {
+      if (!oracle_->equilibrium(x)) return std::nullopt;
       for (const ContactMode& mode : oracle_->feasible_modes(x))
         if (std::find(list.begin(), list.end(), mode) == list.end()) list.push_back(mode);
       return list;

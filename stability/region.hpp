@@ -77,7 +77,8 @@ struct Region {
   bool empty() const { return equilibrium.empty(); }
 };
 
-/// Contacts and radius of gyration as for RobustOracle.
+/// Contacts and radius of gyration as for RobustOracle. Throws std::invalid_argument as its constructor, and for
+/// numbers of box or options that are not finite, tolerances <= 0, an empty window.
 Region region(std::span<const Contact> contacts, double radius_of_gyration, const WrenchBox& box,
               const RegionOptions& options = {});
 

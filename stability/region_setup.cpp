@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stability/given.hpp"
+
 namespace surefoot::stability {
 namespace {
 
@@ -20,11 +22,29 @@ double core_of(std::span<const Contact> contacts, double rho) {
   return extent + rho;
 }
 
+std::span<const Contact> sound(std::span<const Contact> contacts, double rho, const WrenchBox& box,
+                               const RegionOptions& options) {
+  require_contacts(contacts);
+  require_radius_of_gyration(rho);
+  require(not_negative(box.kappa) && not_negative(box.nu) && std::isfinite(box.centre.p) && std::isfinite(box.centre.q),
+          "wrenches: expected finite numbers, kappa and nu >= 0");
+  require(positive(options.area_tolerance) && positive(options.curve_tolerance),
+          "region: expected tolerances to be numbers > 0");
+  require_window(options.window);
+  return contacts;
+}
+
 }  // namespace
+
+void require_window(const std::optional<Eigen::AlignedBox2d>& window) {
+  if (!window) return;
+  require(window->min().allFinite() && window->max().allFinite() && (window->sizes().array() > 0).all(),
+          "window: expected finite corners, the least below the greatest");
+}
 
 RegionSetup::RegionSetup(std::span<const Contact> contacts, double rho, const WrenchBox& box,
                          const RegionOptions& options)
-    : posture(contacts, rho), core(core_of(contacts, rho)) {
+    : posture(sound(contacts, rho, box, options), rho), core(core_of(contacts, rho)) {
   const std::vector<LabelledHalfPlane> planes = equilibrium_half_planes(posture, box);
   polygon = equilibrium_polygon(planes, contacts, rho, options, window);
   const double found = polygon.corner.size() < 3 ? 0 : area_of(polygon.corner);

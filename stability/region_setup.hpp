@@ -3,12 +3,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "stability/region_polygon.hpp"
 #include "stability/region_rows.hpp"
 
 namespace surefoot::stability {
+
+/// Throws std::invalid_argument for a window that is empty or not finite.
+void require_window(const std::optional<Eigen::AlignedBox2d>& window);
 
 struct RegionSetup {
   Posture posture;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
+#include "stability/given.hpp"
 #include "stability/line_test.hpp"
 #include "stability/point_test.hpp"
 
@@ -20,13 +20,24 @@ std::string Critical::name() const {
   return "none";
 }
 
+namespace {
+
+std::span<const Contact> sound(std::span<const Contact> contacts, double radius_of_gyration) {
+  require_contacts(contacts);
+  require_radius_of_gyration(radius_of_gyration);
+  return contacts;
+}
+
+}  // namespace
+
 RobustOracle::RobustOracle(std::span<const Contact> contacts, double radius_of_gyration, DisturbanceBox box)
-    : posture_(contacts, radius_of_gyration), box_(box) {
-  assert(std::isfinite(box.kappa) && box.kappa >= 0 && std::isfinite(box.nu) && box.nu >= 0);
+    : posture_(sound(contacts, radius_of_gyration), radius_of_gyration), box_(box) {
+  require_box(box);
 }
 
 bool robust(std::span<const Contact> contacts, double radius_of_gyration, const DisturbanceBox& box,
             const Vector2d& com) {
+  assert(not_negative(box.kappa) && not_negative(box.nu));
   Posture posture(contacts, radius_of_gyration, Posture::Modes::deferred);
   PointQuery query(posture, com, box);
   if (!query.equilibrium()) return false;

@@ -65,16 +65,17 @@ struct HalfPlane {
 };
 
 /// RobustOracle(contacts, radius_of_gyration, box).robust(com) for contacts that are asked about once: without the work
-/// that this COM does not need.
+/// that this COM does not need. But for their count the arguments are asserted only: a check would cost a twentieth.
 bool robust(std::span<const Contact> contacts, double radius_of_gyration, const DisturbanceBox& box,
             const Eigen::Vector2d& com);
 
 /// All questions about one set of 1 to 3 contacts. Construction does the work that does not depend on the COM;
 /// member functions are const, cheap (exact numbers, where they are needed, are not), and may be called
-/// from several threads.
+/// from several threads. COMs are finite: asserted, as a check would cost what the answer does.
 class RobustOracle {
  public:
-  /// radius_of_gyration [m] > 0. Non-finite numbers, negative friction, zero normals, or a count outside 1..3 assert.
+  /// radius_of_gyration [m] > 0. Throws std::invalid_argument for non-finite numbers, negative friction or sides of the
+  /// box, zero normals, or a count outside 1..3.
   RobustOracle(std::span<const Contact> contacts, double radius_of_gyration, DisturbanceBox box);
 
   /// com in R_SS(W): the contacts can balance every wrench of W, with strict inequality (theory section 3).

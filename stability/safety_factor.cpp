@@ -1,6 +1,7 @@
 // Safety factors of points and straight lines (theory section 5): the facets' part in closed form, the modes' part by
 // the linear program of least_scale.hpp; along a line by certificates at the level of the best value found.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -36,6 +37,7 @@ class FacetFactors {
   FacetFactors(const Posture& posture, const Vector2d& com, const DisturbanceBox& box)
       : posture_(posture), com_(com), box_(box), x_(com.x() - posture.position(0).x()),
         y_(com.y() - posture.position(0).y()) {
+    assert(com.allFinite());
     // z: 18 u a^2 (times lengths); x, y 1 u, products and sums 5 u of 2 a^2: together below facet_error, 32 u a^2.
     const double lengths = posture.spread() + std::abs(x_) + std::abs(y_);
     const bool hopeless = GuardScale(posture.edge_bound(), posture.rho2(), box).at(lengths).nothing_certain();

@@ -220,6 +220,8 @@ class DocumentBuilder : public YAML::EventHandler {
 
 namespace {
 
+constexpr std::size_t longest_message = 200;  // characters of the parser's messages, which may quote what it read
+
 /// A message of the parser without the raw byte that it may end with (of an escape, or its mark for the end of the
 /// file).
 std::string readable(std::string message) {
@@ -263,7 +265,7 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
     const std::string message = readable(error.msg);
     const std::string advice = yaml_advice(source, message, static_cast<std::size_t>(mark.pos), builder.open());
     throw source.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column),
-                       "not valid YAML: " + message + advice);
+                       "not valid YAML: " + shown(message, longest_message) + advice);
   }
   if (!builder.complete()) throw source.error(0, 0, "nothing but white space or comments");
   if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());

@@ -83,7 +83,8 @@ const Segment& Terrain::segment(int chain, int index) const {
 }
 
 bool Terrain::is_closed(int chain) const {
-  return segments_[first_segment(chain)].a == segments_[chain_begin_[chain + 1] - 1].b;
+  const int first = first_segment(chain);  // throws, before the other end is looked for
+  return segments_[first].a == segments_[chain_begin_[chain + 1] - 1].b;
 }
 
 Foothold Terrain::stand(const Segment& segment, double s, const Point& position) const {

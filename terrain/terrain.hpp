@@ -76,7 +76,8 @@ using TerrainFaultReport = std::function<bool(const TerrainFault&)>;
 
 class SpatialIndex;
 
-/// Immutable after construction; const member functions may be called from several threads.
+/// Immutable after construction; const member functions may be called from several threads. Points and lengths asked
+/// about are finite, and directions not zero: asserted, as these questions are asked millions of times.
 class Terrain {
  public:
   /// Throws TerrainFault (a std::invalid_argument) if there is no chain, if a chain has fewer than two vertices, a

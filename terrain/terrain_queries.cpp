@@ -144,6 +144,7 @@ std::vector<Stretch> Terrain::stretches_within(const Point& centre, double least
 
 void Terrain::stretches_within(const Point& centre, double least, double greatest,
                                std::vector<Stretch>& stretches) const {
+  assert(centre.allFinite() && !std::isnan(least) && !std::isnan(greatest));
   stretches.clear();
   if (!(greatest > 0)) return;
   const double limit = greatest * greatest;
@@ -163,6 +164,7 @@ void Terrain::stretches_within(const Point& centre, double least, double greates
 }
 
 double Terrain::distance(const Point& point, double greatest) const {
+  assert(point.allFinite() && greatest >= 0);
   double least = greatest * greatest;
   index_->nearest(
       least, [&](const Box& box) { return box.squared_distance(point.x(), point.y()); },
@@ -172,6 +174,7 @@ double Terrain::distance(const Point& point, double greatest) const {
 
 double Terrain::distance(const Point& a, const Point& b, double greatest) const {
   if (a == b) return distance(a, greatest);
+  assert(a.allFinite() && b.allFinite() && greatest >= 0);
   const Probe probe(a, b);
   double least = greatest * greatest;
   index_->nearest(
@@ -184,6 +187,7 @@ double Terrain::distance(const Point& a, const Point& b, double greatest) const 
 }
 
 bool Terrain::leg_is_free(const Point& com, const Foothold& foot) const {
+  assert(com.allFinite() && foot.position.allFinite());
   const Segment& own = segment(foot.chain, foot.segment);
   if (orientation(own.a, own.b, com) <= 0) return false;
   const std::int32_t own_id = static_cast<std::int32_t>(&own - segments_.data());
@@ -195,12 +199,14 @@ bool Terrain::leg_is_free(const Point& com, const Foothold& foot) const {
 }
 
 bool Terrain::blocks(const Point& a, const Point& b) const {
+  assert(a.allFinite() && b.allFinite());
   const Probe probe(a, b);
   return index_->any([&](const Box& box) { return probe.may_meet(box); },
                      [&](std::int32_t, const Piece& piece) { return segments_meet(a, b, piece.a, piece.b); });
 }
 
 bool Terrain::sector_is_free(const Point& centre, double radius, const Point& from, const Point& to) const {
+  assert(centre.allFinite() && std::isfinite(radius) && from.allFinite() && to.allFinite());
   assert(!from.isZero(0) && !to.isZero(0));
   Sector sector;
   sector.centre = centre;

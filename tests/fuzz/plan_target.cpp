@@ -1,3 +1,6 @@
+#include <string>
+#include <vector>
+
 #include "gaits/plan_io.hpp"
 #include "gaits/verifier.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -19,6 +22,14 @@ goal: {com_x: [0.4, 6]}
   return scene;
 }
 
+/// `surefoot check` draws plans that do not hold, too.
+void draw(const gaits::Plan& plan, const gaits::Verification& verification) {
+  std::vector<std::string> faults;
+  for (const gaits::Fault& fault : verification.faults) faults.push_back(gaits::to_string(fault));
+  const std::string svg = gaits::to_svg(ground(), plan), html = gaits::to_html(ground(), plan, faults);
+  for (const std::string& picture : {svg, html}) expect(!picture.empty(), "a plan has a picture");
+}
+
 }  // namespace
 
 void plan(std::string_view bytes) {
@@ -28,7 +39,9 @@ void plan(std::string_view bytes) {
     expect(gaits::to_json(gaits::parse_plan(json, "input")) == json, "a plan survives JSON");
     expect(gaits::to_yaml(gaits::parse_plan(yaml, "input")) == yaml, "a plan survives YAML");
     expect(gaits::to_json(gaits::parse_plan(yaml, "input")) == json, "JSON and YAML hold the same plan");
-    gaits::verify(ground(), read);
+    const gaits::Verification verification = gaits::verify(ground(), read);
+    constexpr std::size_t few = 4;  // a page takes some milliseconds a stance
+    if (read.status == gaits::Status::solved && read.stances.size() <= few) draw(read, verification);
   } catch (const terrain::InputError& fault) {
     expect_located(fault.what());
   }

@@ -5,7 +5,8 @@
 namespace surefoot::fuzz {
 
 const std::vector<Target>& targets() {
-  static const std::vector<Target> all{{"scene", scene}, {"plan", plan}, {"query", query}, {"posture", posture}};
+  static const std::vector<Target> all{{"scene", scene},     {"plan", plan},         {"query", query},
+                                       {"posture", posture}, {"simulate", simulate}, {"region", region}};
   return all;
 }
 

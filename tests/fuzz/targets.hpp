@@ -19,12 +19,16 @@ class Broken : public std::logic_error {
 /// exactly if it is refused.
 void scene(std::string_view bytes);
 /// A plan is read, or refused with one located line; what is read is written as JSON and YAML and read back to the same
-/// text; the verifier judges it without complaint.
+/// text; the verifier judges it without complaint, and it can be drawn whether it holds or not.
 void plan(std::string_view bytes);
 /// Each line of a query gets one line of JSON, an answer or an error with its number, and the same one every time.
 void query(std::string_view bytes);
 /// A posture file is read, or refused with one located line.
 void posture(std::string_view bytes);
+/// A posture file of `surefoot simulate` is read, or refused; the push that it tells of ends, the same way every time.
+void simulate(std::string_view bytes);
+/// A posture file of `surefoot region` is read, or refused; areas keep to their bounds, cells to the oracle's verdict.
+void region(std::string_view bytes);
 
 struct Target {
   std::string name;  ///< also of its folder in the corpus

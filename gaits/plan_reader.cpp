@@ -163,7 +163,8 @@ Plan plan(const Node& root) {
 /// The first line is that of to_text.
 bool is_printed_for_people(std::string_view text) {
   const std::string_view first = text.substr(0, text.find('\n'));
-  if (first.starts_with('{')) return false;
+  for (const std::string_view key : {"{", "status:", "reason:"})
+    if (first.starts_with(key)) return false;
   return first.find(": solved in ") != std::string_view::npos ||
          first.find(": no plan found") != std::string_view::npos ||
          first.find(": infeasible") != std::string_view::npos;

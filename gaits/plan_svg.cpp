@@ -50,7 +50,7 @@ class PlanPicture {
  public:
   PlanPicture(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults)
       : scene_(scene), plan_(plan), faults_(faults), terrain_(scene.terrain), weakest_(weakest_place(plan)),
-        page_(lay_out(scene, plan, top)), canvas_(page_.width, page_.height, title_of(plan)) {}
+        page_(lay_out(scene, plan, top)), canvas_(page_.width, page_.height, title_of(plan, !faults.empty())) {}
 
   std::string draw() {
     heading();
@@ -261,7 +261,7 @@ class PlanPicture {
       canvas_.circle(at, dot_radius, com_dot, tooltip(k));
       const Vector2d above = at - Vector2d(0, 8);
       if (places.take(above, 15))
-        canvas_.text(above, k == plan_.steps() ? "end" : std::to_string(k + 1),
+        canvas_.text(above, k > 0 && k == plan_.steps() ? "end" : std::to_string(k + 1),
                      {.size = 10, .anchor = "middle", .halo = true});
     }
   }

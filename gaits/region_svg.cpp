@@ -86,7 +86,7 @@ class Picture {
     if (region_.window)
       more = fmt::format("Clipped to x {:.4g} .. {:.4g}, y {:.4g} .. {:.4g} m.  ", region_.window->min().x(),
                          region_.window->max().x(), region_.window->min().y(), region_.window->max().y());
-    else if (figure_.terrain != nullptr) more = "COMs below the ground or out of reach count too.  ";
+    if (figure_.terrain != nullptr) more += "COMs below the ground or out of reach count too.  ";
     if (!region_.empty() && !window_.contains(bounds_of(region_.equilibrium))) more += "Goes on beyond the picture.";
     canvas_->text({left, 98}, more, {.size = 12, .colour = faint});
   }

@@ -185,7 +185,9 @@ Scene read_scene(const Node& root, const std::string& file) {
   if (root.find("stances") && root.find("transfers"))
     root.fail("scene: this is a plan; expected a scene (surefoot check takes SCENE, then PLAN)");
   if (root.find("contacts"))
-    root.fail("scene: this is a posture; expected a scene (surefoot region takes one with --posture)");
+    root.fail(
+        "scene: this is a posture; expected a scene (surefoot region takes one with --posture, simulate without "
+        "--scene)");
   if (const Node* version = root.find("surefoot")) check_version(*version);  // of another one nothing else can be said
   root.allow_only({"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal", "search"},
                   "scene");

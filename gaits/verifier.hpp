@@ -1,6 +1,6 @@
 // The independent verifier: rebuilds every check of a plan from the scene. With the search and its rules it shares the
-// stability oracle, the terrain's segments and the names of the rules; nothing else (geometry by brute force over all
-// segments; nothing in the plan is believed but footholds, COMs and legs).
+// stability oracle, the terrain's segments, the names of the rules and the words for frictional faults; nothing else
+// (geometry by brute force over all segments; nothing in the plan is believed but footholds, COMs and legs).
 //
 // Guarantee: a plan that holds obeys every rule of rules.hpp, reach and clearance up to `verifier_slack`; stability
 // verdicts have no slack: they are the oracle's exact ones, asked of oracles built here, and every line is sampled

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stability/frictional.hpp"
+#include "gaits/frictional_words.hpp"
 
 namespace surefoot::gaits::bare {
 
@@ -160,23 +160,17 @@ double Checks::factor(const RobustOracle& oracle, const Point& com) const {
 void Checks::check_stance_stability(const std::string& place, const Posture& feet, const Point& com, double stated) {
   const RobustOracle oracle = oracle_of_feet(feet, 1);
   const double sigma = factor(oracle, com);
-  if (scene_.criterion != Criterion::frictional && !stable(oracle, com)) {
+  const bool unstable = scene_.criterion != Criterion::frictional && !stable(oracle, com);
+  if (unstable) {
     note(Rule::stance_stability, place, "not stable with the COM at {} (safety factor {:.6g})", show(com), sigma);
   }
   if (asks_frictional(scene_.criterion)) check_frictional(place, oracle, com);
-  check_factor(Rule::stance_stability, place, stated, sigma);
+  check_factor(Rule::stance_stability, place, stated, sigma, unstable);
 }
 
 void Checks::check_frictional(const std::string& place, const RobustOracle& oracle, const Point& com) {
-  const auto verdict = stability::frictional_verdict(oracle.posture(), com, scene_.restitution.value());
-  if (verdict.stable()) return;
-  const auto [psi_1, psi_2] = stability::psi(oracle.posture(), com);
-  std::string why;
-  if (!verdict.upward) why = "the ground does not face upward under both feet";
-  else if (!verdict.equilibrium) why = "gravity alone cannot be balanced";
-  else if (verdict.failed_mode)
-    why = fmt::format("no kinematic-strong equilibrium, mode {}", verdict.failed_mode->name());
-  else why = fmt::format("clattering with psi = {:.6g}, {:.6g} need not die out", psi_1, psi_2);
+  const std::string why = frictional_fault(oracle.posture(), com, scene_.restitution.value());
+  if (why.empty()) return;
   note(Rule::stance_stability, place, "not frictionally stable with the COM at {}: {}", show(com), why);
 }
 
@@ -202,7 +196,7 @@ void Checks::check_line_stability(const std::string& place, const Posture& feet,
     sigma = oracle.line_equilibrium_factor(from, to).least.value;
   }
   sample_line(place, feet, from, to, sigma, certified);
-  check_factor(Rule::transfer_stability, place, stated, sigma);
+  check_factor(Rule::transfer_stability, place, stated, sigma, !certified);
 }
 
 // A second look at what the straight-line test says, by the verdicts at points: for the box, and for the box as large
@@ -234,11 +228,9 @@ void Checks::sample_line(const std::string& place, const Posture& feet, const Po
   }
 }
 
-void Checks::check_factor(Rule rule, const std::string& place, double stated, double found) {
+void Checks::check_factor(Rule rule, const std::string& place, double stated, double found, bool unstable) {
   least_factor_ = std::min(least_factor_, found);
-  // That an unstable place does not have the factor stated goes without saying.
-  const auto said = [&](const Fault& fault) { return fault.rule == rule && fault.place == place; };
-  if (!same_factor(stated, found) && std::none_of(faults_.begin(), faults_.end(), said)) {
+  if (!unstable && !same_factor(stated, found)) {
     note(rule, place, "the stated safety factor is {}, but it is {}", stated, found);
   }
 }

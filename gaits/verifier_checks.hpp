@@ -50,7 +50,8 @@ class Checks {
 
  private:
   void compare_with_stated(const std::string& place, int leg, const terrain::Foothold& stated, const Foot& foot);
-  void check_factor(Rule rule, const std::string& place, double stated, double found);
+  /// Where the place is `unstable`, it goes without saying that it has not the factor stated.
+  void check_factor(Rule rule, const std::string& place, double stated, double found, bool unstable);
   void sample_line(const std::string& place, const Posture& feet, const Point& from, const Point& to,
                    double least_factor, bool certified);
   /// For disturbances of `scale` times the scene's.

@@ -25,6 +25,8 @@ std::string verdict(const gaits::Verification& verification, const gaits::Plan& 
     if (fault.place.starts_with("stance")) stances.insert(fault.place);
     else if (fault.place.starts_with("transfer")) transfers.insert(fault.place);
   const std::size_t count = verification.faults.size();
+  if (stances.empty() && transfers.empty())
+    return fmt::format("does not hold: {} fault{}", count, count == 1 ? "" : "s");
   return fmt::format("does not hold: {} fault{} in {} of {} stances and {} of {} transfers", count,
                      count == 1 ? "" : "s", stances.size(), plan.stances.size(), transfers.size(),
                      plan.transfers.size());

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/version.hpp>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -78,7 +79,8 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   plan->add_flag("--no-refine", a.no_refine, "leave the plan as the search found it");
   plan->add_flag(
       "--explain", a.explain,
-      "say what limits each step and what was left out; where there is no plan, what would help (takes longer)");
+      "say what limits each step and what was left out; where there is no plan, what would help (takes longer);\n"
+      "on standard error where standard output or a file takes the plan in another form");
   auto* quiet = plan->add_flag("-q,--quiet", a.quiet, "nothing but the result: no progress, no notes");
   plan->add_flag("-v,--verbose", a.verbose, "counts and times of each stage on standard error")->excludes(quiet);
   plan->footer(
@@ -191,6 +193,12 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0';
+}
+
 /// What the parser says, with the option or command that may have been meant.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
   const std::vector<std::string> commands = command_names(app);
@@ -205,8 +213,9 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
   std::string message = fault.what();
   const std::string unconverted = "Could not convert: ";  // "Could not convert: --time-limit = 1min"
   if (const auto equals = message.find(" = "); message.starts_with(unconverted) && equals != std::string::npos)
-    return fmt::format("{}: found {}, expected a number",
-                       message.substr(unconverted.size(), equals - unconverted.size()), message.substr(equals + 3));
+    return fmt::format("{}: found {}, expected a {}number",
+                       message.substr(unconverted.size(), equals - unconverted.size()), message.substr(equals + 3),
+                       is_number(message.substr(equals + 3)) ? "whole " : "");
   const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&fault);
   if (extras == nullptr) return message;
   if (chosen != nullptr)

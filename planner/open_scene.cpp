@@ -4,6 +4,7 @@
 
 #include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
+#include "planner/console.hpp"
 #include "terrain/back_faces.hpp"
 
 namespace surefoot::planner {
@@ -23,8 +24,9 @@ gaits::Scene open_scene(const std::string& path) {
   if (scene) return *std::move(scene);
   const terrain::InputError first = faults.kept().front();
   if (faults.count() == 1) throw first;
-  throw terrain::InputError(fmt::format("{} (and {} more: surefoot validate {})", first.what(), faults.count() - 1,
-                                        path),
+  const std::string place = path == "-" ? "" : " " + one_line(path);
+  throw terrain::InputError(fmt::format("{} (and {} more: surefoot validate{})", first.what(), faults.count() - 1,
+                                        place),
                             first.line, first.column);
 }
 
@@ -43,8 +45,7 @@ std::string reversed_chain_remark(const gaits::Scene& scene) {
   if (!seen) return "";
   return fmt::format(
       "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round? Free space "
-      "is on "
-      "the left of a chain: ground runs from left to right, a ceiling from right to left",
+      "is on the left of a chain: ground runs from left to right, a ceiling from right to left",
       seen->chain, seen->from_chain, seen->at.x(), seen->at.y());
 }
 

@@ -65,8 +65,9 @@ std::string output_format(const PlanArguments& arguments) {
   const std::string name = arguments.output.value_or("");
   for (const char* picture : {".svg", ".html"})
     if (name.ends_with(picture))
-      throw terrain::InputError(
-          fmt::format("-o {}: the plan itself goes there, as text; did you mean --{} {}?", name, picture + 1, name));
+      throw terrain::InputError(fmt::format(
+          "-o {}: the plan itself goes there; did you mean --{} {}? (--format text writes it there all the same)", name,
+          picture + 1, name));
   if (name.ends_with(".json")) return "json";
   if (name.ends_with(".yaml") || name.ends_with(".yml")) return "yaml";
   return "text";

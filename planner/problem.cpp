@@ -123,7 +123,7 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   if (nearest != found.end()) choice.nearest.push_back(nearest->second);
   if (found.empty()) {
     const std::string tried = in_goal.empty() ? "" : fmt::format(" and {} in the goal", goal_samples);
-    refuse(fmt::format("no COM was found to stand on feet {} in {} tries{}, refused by {}", legs_of(stance),
+    refuse(fmt::format("no COM was found to stand on feet {} in {} tries{}, refused by {}", legs_in_words(stance),
                        com_samples, tried, shares(refused)),
            false);
   }

@@ -215,8 +215,7 @@ std::string region_to_text(const gaits::RegionFigure& figure, const Region& regi
   if (region.window)
     fmt::format_to(put, "         clipped to x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g} m\n", region.window->min().x(),
                    region.window->max().x(), region.window->min().y(), region.window->max().y());
-  else if (figure.terrain != nullptr)
-    out += "         COMs below the ground or out of reach count too; --window clips\n";
+  if (figure.terrain != nullptr) out += "         COMs below the ground or out of reach count too\n";
   if (!region.note.empty()) fmt::format_to(put, "         note: {}\n", region.note);
   describe_modes(out, figure, region);
   if (frictional) describe_frictional(out, *frictional);

@@ -180,8 +180,8 @@ std::string simulation_to_text(const HybridBody& body, const SimulateRecord& rec
                {fmt::format("{:.6g}", s.theta)}});
   }
   out += table.print(false);
-  if (rows.size() > most_rows)
-    out += fmt::format("and {} lines more (all events are in the JSON)\n", rows.size() - most_rows);
+  if (rows.size() > most_rows) out += fmt::format("and {} lines more (in the JSON)\n", rows.size() - most_rows);
+  if (record.omitted > 0) out += fmt::format("and {} events more, which were not kept\n", record.omitted);
   if (record.run.ambiguous > 0)
     out += fmt::format(
         "\n{} times more than one contact mode was consistent; the one that keeps most contacts was taken.\n",

@@ -7,13 +7,14 @@
 #include <limits>
 
 #include "gaits/foothold_words.hpp"
+#include "gaits/frictional_words.hpp"
 #include "planner/com_window.hpp"
 
 namespace surefoot::planner {
 
 using gaits::Rule;
 
-std::string legs_of(const gaits::Stance& stance) {
+std::string legs_in_words(const gaits::Stance& stance) {
   std::string text;
   for (int leg = 0; leg < gaits::leg_count; ++leg)
     if (stance.feet[leg]) text += (text.empty() ? "" : " and ") + std::to_string(leg + 1);
@@ -22,11 +23,12 @@ std::string legs_of(const gaits::Stance& stance) {
 
 namespace {
 
-/// Where the COMs that balance on two feet lie, as advice; "" if there are none within reach.
+/// Where the COMs that balance on two feet lie, as advice; "" if there are none within reach, or this is one.
 std::string balancing_coms(const gaits::Scene& scene, const gaits::Stance& stance) {
   const Polygon window = reach_window(stance.feet, scene.robot.reach_max);
-  if (window.empty()) return "";
-  const Polygon polygon = gaits::oracle_of(scene, stance.feet).equilibrium_polygon(window);
+  const auto oracle = gaits::oracle_of(scene, stance.feet, box_of_stances(scene));
+  if (window.empty() || oracle.equilibrium(stance.com)) return "";
+  const Polygon polygon = oracle.equilibrium_polygon(window);
   if (polygon.empty()) return "";
   const auto [left, right] =
       std::minmax_element(polygon.begin(), polygon.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
@@ -50,9 +52,14 @@ std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& st
     return fmt::format("the COM is {:.6g} m from the terrain, clearance is {} m",
                        scene.terrain.distance(stance.com, 2 * robot.clearance + robot.reach_max), robot.clearance);
   if (const std::string slips = friction_fault(scene, stance); !slips.empty()) return slips;
-  const auto sigma = gaits::safety_factor(scene, gaits::oracle_of(scene, stance.feet), stance.com);
+  const auto oracle = gaits::oracle_of(scene, stance.feet);
+  const auto sigma = gaits::safety_factor(scene, oracle, stance.com);
+  if (gaits::asks_frictional(scene.criterion))
+    if (const std::string why = gaits::frictional_fault(oracle.posture(), stance.com, *scene.restitution); !why.empty())
+      return fmt::format("not frictionally stable on feet {} for restitution {}: {}{}", legs_in_words(stance),
+                         *scene.restitution, why, balancing_coms(scene, stance));
   return fmt::format("not stable on feet {}: safety factor {:.4g}, limited by {}; more than 1 is needed{}",
-                     legs_of(stance), sigma.value, sigma.critical.name(),
+                     legs_in_words(stance), sigma.value, sigma.critical.name(),
                      sigma.value > 0 ? "" : balancing_coms(scene, stance));
 }
 
@@ -62,7 +69,7 @@ stability::DisturbanceBox box_of_stances(const gaits::Scene& scene) {
 }
 
 std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stance) {
-  // Forces f of the feet balance a disturbance fx/fy = q only if their sum is along (q, 1), so only if that direction
+  // Forces f of the feet balance a disturbance fx/fy = p only if their sum is along (p, 1), so only if that direction
   // lies inside the cone spanned by the edges n +- mu t of all friction cones. Where all edges rise these are the
   // slopes between the least and the greatest e_x / e_y. Equality does not balance (R_SS is open); it is taken for
   // sure only on level ground, where the slopes are +-mu without rounding.
@@ -82,14 +89,15 @@ std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stanc
     }
   }
   const double borne = std::min(greatest, -least) + 0.0, kappa = scene.disturbance.kappa;
-  if (!(kappa > borne + rounding * (1 + std::max(greatest, -least)) || (level && kappa >= borne))) return "";
-  if (borne <= 0 && !level)
+  const double error = level ? 0 : rounding * (1 + std::max(greatest, -least));
+  if (!(kappa > borne + error || (level && kappa >= borne))) return "";
+  if (borne < -error)
     return fmt::format(
         "no COM balances on feet {}, even without disturbances: the ground is too steep for its friction",
-        legs_of(stance));
+        legs_in_words(stance));
   return fmt::format(
       "no COM balances on feet {}: friction bears sideways pushes below {:.6g} of the weight, kappa is {}",
-      legs_of(stance), borne, kappa);
+      legs_in_words(stance), std::abs(borne) <= error ? 0.0 : borne, kappa);
 }
 
 namespace {
@@ -122,7 +130,9 @@ std::string hanging_feet(const gaits::Scene& scene) {
   std::string text;
   for (int leg = 0; leg < gaits::leg_count; ++leg) {
     const auto& foot = scene.start.feet[leg];
-    if (!foot || !gaits::cannot_push_up(*foot)) continue;
+    const auto& support = scene.start.support;
+    const bool may_carry = !support || leg == support->first || leg == support->second;
+    if (!foot || !may_carry || !gaits::cannot_push_up(*foot)) continue;
     text += fmt::format("; foot {} hangs below chain {}, which runs from right to left there: reverse its vertices?",
                         leg + 1, foot->chain);
   }
@@ -131,8 +141,10 @@ std::string hanging_feet(const gaits::Scene& scene) {
 
 BalanceFault balance_fault(const gaits::Scene& scene, const gaits::Stance& stance) {
   const auto [kappa, nu] = box_of_stances(scene);
-  const std::string nobody = fmt::format("no COM within reach of feet {} ", legs_of(stance));
-  const auto impossible = [&](double p, double q) { return no_com_balances(scene, stance.feet, {p, q}); };
+  const std::string nobody = fmt::format("no COM within reach of feet {} ", legs_in_words(stance));
+  const auto impossible = [&](double push_of, double turn_of) {
+    return no_com_balances(scene, stance.feet, {push_of, turn_of});
+  };
   if (!impossible(kappa, nu)) return {false, nobody + "was found to balance every disturbance"};
   if (impossible(0, 0))
     return {true,

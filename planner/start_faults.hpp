@@ -12,7 +12,7 @@ namespace surefoot::planner {
 stability::DisturbanceBox box_of_stances(const gaits::Scene& scene);
 
 /// The legs that stand, "1 and 2".
-std::string legs_of(const gaits::Stance& stance);
+std::string legs_in_words(const gaits::Stance& stance);
 
 /// The rule that a first stance with a given COM breaks, with the numbers.
 std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& stance, gaits::Rule rule);
@@ -20,7 +20,8 @@ std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& st
 /// Proof from the friction cones alone that two feet bear no push of kappa, wherever the COM is; "" if there is none.
 std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stance);
 
-/// Start feet from which a robot could only hang, with what may be wrong; "" if there are none.
+/// Start feet that may carry the first stance and from which a robot could only hang, with what may be wrong; "" if
+/// there are none.
 std::string hanging_feet(const gaits::Scene& scene);
 
 struct BalanceFault {

@@ -97,7 +97,7 @@ class Motion {
     return root([&](double t) { return value(guard, step(from, t)); }, low, high, at_low, at_high).second;
   }
 
-  /// The one step to take: grows and shrinks with the error. Counts what it tries, up to most_steps.
+  /// The one step to take: grows and shrinks with the error. Counts what it tries; 0 when most_steps are reached.
   double advance(Values& y, double& s, int& tried) const {
     constexpr double tolerance = 1e-13, safety = 0.9, least_factor = 0.2, most_factor = 4;
     for (;;) {
@@ -111,7 +111,8 @@ class Motion {
       }
       const double factor = safety * std::pow(std::max(worst, 1e-10), -0.125), taken = s;
       tried += worst <= 1 ? 1 : refused_step;
-      if (worst <= 1 || tried >= most_steps) {
+      if (tried >= most_steps) return 0;
+      if (worst <= 1) {
         y = to;
         s *= std::clamp(factor, 1.0, most_factor);
         return taken;
@@ -161,8 +162,8 @@ MotionEnd move_in_mode(const HybridBody& body, BodyState& state, const ContactMo
       return {MotionEnd::Cause::time, 0, time};
     }
     const Values from = y;
-    if (tried >= most_steps) return {MotionEnd::Cause::work, 0, time};
     const double taken = motion.advance(y, s, tried);
+    if (taken == 0) return {MotionEnd::Cause::work, 0, time};
     MotionEnd end;
     double first = taken + 1;
     for (const auto& guard : guards) {

@@ -9,12 +9,14 @@ namespace surefoot::terrain {
 namespace {
 
 constexpr std::size_t most_tests = 4'000'000;  ///< of a ray against a segment: tens of milliseconds
+constexpr double rounding = 1e-9;              ///< relative to a length
 
-/// Distance along the ray (a unit vector) at which it meets the inside of the segment; infinity if it does not.
+/// Distance along the ray (a unit vector) at which it meets the segment, ends and what rounding adds to them included;
+/// infinity if it does not.
 double meeting(const Point& from, const Point& direction, const Segment& segment) {
   const double t = segment.normal.dot(segment.a - from) / segment.normal.dot(direction);
-  const double along = segment.tangent.dot(from + t * direction - segment.a);
-  return t > 0 && along > 0 && along < segment.length ? t : std::numeric_limits<double>::infinity();
+  const double along = segment.tangent.dot(from + t * direction - segment.a), slack = rounding * segment.length;
+  return t > 0 && along >= -slack && along <= segment.length + slack ? t : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -26,15 +28,17 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within) {
     const Segment& ground = segments[k * segments.size() / rays];
     if (!ground.surface.foothold) continue;
     const Point middle = 0.5 * (ground.a + ground.b);
-    double nearest = within;
+    double front = within, back = within;
     const Segment* met = nullptr;
     for (const Segment& other : segments) {
       if (&other == &ground) continue;
       const double t = meeting(middle, ground.normal, other);
-      if (t < nearest) nearest = t, met = &other;
+      if (other.normal.dot(ground.normal) < 0) front = std::min(front, t);
+      else if (t < back) back = t, met = &other;
     }
-    if (met != nullptr && met->normal.dot(ground.normal) > 0)
-      return BackFace{met->chain, ground.chain, middle + nearest * ground.normal};
+    // Through a vertex the ray meets both neighbours; the solid behind begins at the front.
+    if (met != nullptr && back < front - rounding * within)
+      return BackFace{met->chain, ground.chain, middle + back * ground.normal};
   }
   return std::nullopt;
 }

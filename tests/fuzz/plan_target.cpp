@@ -26,7 +26,7 @@ goal: {com_x: [0.4, 6]}
 void draw(const gaits::Plan& plan, const gaits::Verification& verification) {
   std::vector<std::string> faults;
   for (const gaits::Fault& fault : verification.faults) faults.push_back(gaits::to_string(fault));
-  const std::string svg = gaits::to_svg(ground(), plan), html = gaits::to_html(ground(), plan, faults);
+  const std::string svg = gaits::to_svg(ground(), plan, faults), html = gaits::to_html(ground(), plan, faults);
   for (const std::string& picture : {svg, html}) expect(!picture.empty(), "a plan has a picture");
 }
 

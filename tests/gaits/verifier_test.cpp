@@ -416,6 +416,29 @@ TEST_CASE("stated safety factors are compared with those found", "[verifier]") {
   }
 }
 
+TEST_CASE("a false factor is told of a stance that fails by another criterion, not of one that is not robust",
+          "[verifier]") {
+  Scene scene = scene_on(level_ground_and());
+  scene.criterion = Criterion::frictional;
+  scene.restitution = 0.99;  // clattering on level ground dies out only for small ones
+  Plan plan = plan_by_hand(scene);
+  plan.stances[1].safety_factor = 99;
+  require_fault(verify(scene, plan), Rule::stance_stability, "stance 2", "not frictionally stable");
+  require_fault(verify(scene, plan), Rule::stance_stability, "stance 2", "the stated safety factor is 99");
+  scene.criterion = Criterion::robust;
+  scene.restitution.reset();
+  plan = plan_by_hand(scene);
+  plan.stances[1].com.x() += 10;  // out of balance
+  int stated = 0, unstable = 0;
+  for (const Fault& fault : verify(scene, plan).faults) {
+    if (fault.place != "stance 2") continue;
+    stated += fault.message.starts_with("the stated safety factor");
+    unstable += fault.message.starts_with("not stable");
+  }
+  CHECK(unstable == 1);
+  CHECK(stated == 0);
+}
+
 TEST_CASE("the goal is reached by the last stance", "[verifier]") {
   Scene scene = scene_on(level_ground_and());
   const Plan plan = plan_by_hand(scene);

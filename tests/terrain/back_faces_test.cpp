@@ -32,6 +32,15 @@ TEST_CASE("What lies behind other ground, too far away or without footholds is n
   CHECK_FALSE(back_face_seen(Terrain({chain({{-1, 0}, {1, 0}}, false), shelf}), 1.5));
 }
 
+TEST_CASE("A ray through a vertex does not pass through the solid behind", "[back_faces]") {
+  const Chain floor = chain({{-1, 0}, {1, 0}});
+  const std::vector<Point> block{{-.5, 1.5}, {.5, 1.5}, {.5, 1}, {0, 1}, {-.5, 1}, {-.5, 1.5}};
+  CHECK_FALSE(back_face_seen(Terrain({floor, chain(block)}), 3));
+  const auto reversed = back_face_seen(Terrain({floor, chain({block.rbegin(), block.rend()})}), 3);
+  REQUIRE(reversed);
+  CHECK(reversed->at == Point(0, 1));
+}
+
 TEST_CASE("Ground alone, a V, a riser, an overhang, a closed block look at no back", "[back_faces]") {
   for (const auto& vertices :
        std::vector<std::vector<Point>>{{{-1, 1}, {0, 0}, {1, 1}},

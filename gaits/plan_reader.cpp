@@ -134,6 +134,7 @@ Plan plan(const Node& root) {
   root.entries(what);
   if (root.find("terrain") && root.find("robot"))
     root.fail("plan: this is a scene; expected a plan (surefoot check takes SCENE, then PLAN)");
+  if (root.find("contacts")) root.fail("plan: this is a posture; expected a plan");
   root.allow_only({"surefoot", "scene", "status", "reason", "planner", "seed", "stances", "transfers", "safety_factor",
                    "safety_factor_before_refinement", "steps", "time_s", "resolution", "left_out"},
                   what);

@@ -32,6 +32,14 @@ constexpr double top = 116;                             // [px] title and legend
 
 Paint leg_paint(int leg) { return {.stroke = leg_colour[leg], .width = 1.2, .opacity = 0.6}; }
 
+/// At most so many bytes, whole characters (UTF-8).
+std::string cut(std::string words, double room) {
+  auto most = static_cast<std::size_t>(std::max(room, 3.0)) - 3;
+  if (words.size() <= most + 3) return words;
+  while (most > 0 && (static_cast<unsigned char>(words[most]) & 0xc0) == 0x80) --most;
+  return words.substr(0, most) + "...";
+}
+
 /// Keeps labels apart: a place is free if no other has been taken within `distance` pixels.
 class Places {
  public:
@@ -76,7 +84,7 @@ class PlanPicture {
 
   void heading() {
     canvas_.text({30, 36}, title_of(plan_, !faults_.empty()), {.size = 20, .bold = true});
-    canvas_.text({30, 58}, subtitle(),
+    canvas_.text({30, 58}, cut(subtitle(), (page_.width - 60) / (faults_.empty() ? 6.9 : 7.7)),
                  {.size = 13, .colour = faults_.empty() ? faint : alarm, .bold = !faults_.empty()});
     const double metres = round_length(160 / page_.scale);
     const double left = page_.width - 30 - metres * page_.scale, right = page_.width - 30;

@@ -38,6 +38,7 @@ class Verifier {
       check_goal();
       check_least_factor();
     }
+    result.least_factor = checks_.least_factor();
     result.faults = std::move(checks_.faults());
     return result;
   }
@@ -224,8 +225,8 @@ void Verifier::check_goal() {
 void Verifier::check_least_factor() {
   // Where a fault has kept some factors from being computed, the least of all is not known.
   if (!checks_.faults().empty() || bare::same_factor(plan_.safety_factor, checks_.least_factor())) return;
-  fault("plan", "the stated safety factor is {}, but the least of all is {}", plan_.safety_factor,
-        checks_.least_factor());
+  checks_.note_stated(Rule::gait, "plan", "the stated safety factor is {}, but the least of all is {}",
+                      plan_.safety_factor, checks_.least_factor());
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct Fault {
   Rule rule;
   std::string place;    ///< "stance 3", "transfer 2 (leg 1)", "plan"; counted from 1, transfer k leads to stance k + 1
   std::string message;  ///< what was found and what is required, with numbers
+  bool stated = false;  ///< only a safety factor that the plan states is not that of the scene
 };
 
 /// "transfer 2 (leg 1): reach: foot 1 is ..."
@@ -35,6 +36,7 @@ std::string to_string(const Fault& fault);
 struct Verification {
   std::vector<Fault> faults;       ///< empty: the plan holds
   int stances = 0, transfers = 0;  ///< how many were checked
+  double least_factor = 0;         ///< found here, of all that could be asked
   bool holds() const { return faults.empty(); }
 };
 

@@ -231,7 +231,7 @@ void Checks::sample_line(const std::string& place, const Posture& feet, const Po
 void Checks::check_factor(Rule rule, const std::string& place, double stated, double found, bool unstable) {
   least_factor_ = std::min(least_factor_, found);
   if (!unstable && !same_factor(stated, found)) {
-    note(rule, place, "the stated safety factor is {}, but it is {}", stated, found);
+    note_stated(rule, place, "the stated safety factor is {}, but it is {}", stated, found);
   }
 }
 

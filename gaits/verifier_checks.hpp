@@ -33,6 +33,12 @@ class Checks {
   void note(Rule rule, const std::string& place, fmt::format_string<Parts...> format, Parts&&... parts) {
     faults_.push_back({rule, place, fmt::format(format, std::forward<Parts>(parts)...)});
   }
+  /// The same for a safety factor that the plan states and the scene does not have.
+  template <class... Parts>
+  void note_stated(Rule rule, const std::string& place, fmt::format_string<Parts...> format, Parts&&... parts) {
+    note(rule, place, format, std::forward<Parts>(parts)...);
+    faults_.back().stated = true;
+  }
 
   /// The foot at (chain, s); also compares segment and position with what is stated. Nothing where no foot can be.
   std::optional<Foot> rebuild(const std::string& place, int leg, const terrain::Foothold& stated);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,11 +21,16 @@ std::string verdict(const gaits::Verification& verification, const gaits::Plan& 
   if (verification.holds())
     return fmt::format("holds: {} stances, {} transfers, least safety factor {:.6g}", verification.stances,
                        verification.transfers, plan.safety_factor);
+  const std::size_t count = verification.faults.size();
+  if (std::all_of(verification.faults.begin(), verification.faults.end(), [](const auto& f) { return f.stated; }))
+    return fmt::format(
+        "does not hold: {} stated safety factor{} not that of this scene, but every stance and transfer is stable and "
+        "legal (least safety factor {:.6g})",
+        count, count == 1 ? " is" : "s are", verification.least_factor);
   std::set<std::string> stances, transfers;
   for (const gaits::Fault& fault : verification.faults)
     if (fault.place.starts_with("stance")) stances.insert(fault.place);
     else if (fault.place.starts_with("transfer")) transfers.insert(fault.place);
-  const std::size_t count = verification.faults.size();
   if (stances.empty() && transfers.empty())
     return fmt::format("does not hold: {} fault{}", count, count == 1 ? "" : "s");
   return fmt::format("does not hold: {} fault{} in {} of {} stances and {} of {} transfers", count,
@@ -60,6 +66,7 @@ int run_check(const CheckArguments& arguments) {
         fmt::format("{}{}{}\n", fmt::join(faults, "\n"), faults.empty() ? "" : "\n", verdict(verification, plan)));
   if (!verification.holds() && plan.scene != scene.name)
     note(fmt::format("the plan is for a scene named {}, this one is {}", plan.scene, scene.name));
+  if (const std::string remark = behind_chain_remark(scene, plan); !remark.empty()) note("remark: " + remark);
   outputs.commit();
   return verification.holds() ? exit_success : exit_failure;
 }

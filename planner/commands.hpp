@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gaits/plan.hpp"
 #include "gaits/scene.hpp"
 
 namespace surefoot::planner {
@@ -50,6 +51,8 @@ gaits::Scene open_scene(const std::string& path);
 std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults);
 /// A remark on chains that seem to be given the wrong way round; "" if there is none.
 std::string reversed_chain_remark(const gaits::Scene& scene);
+/// A remark on COMs of a plan that lie behind a chain, in what pictures show as solid; "" if there are none.
+std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& plan);
 /// All of stdin.
 std::string read_stdin();
 

@@ -193,6 +193,10 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+std::string command_missing(const std::vector<std::string>& commands) {
+  return fmt::format("a command is missing: {} (surefoot --help tells more)", fmt::join(commands, ", "));
+}
+
 bool is_number(const std::string& text) {
   char* end = nullptr;
   std::strtod(text.c_str(), &end);
@@ -211,6 +215,7 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
                        meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
   }
   std::string message = fault.what();
+  if (message == "A subcommand is required") return command_missing(commands);
   const std::string unconverted = "Could not convert: ";  // "Could not convert: --time-limit = 1min"
   if (const auto equals = message.find(" = "); message.starts_with(unconverted) && equals != std::string::npos)
     return fmt::format("{}: found {}, expected a {}number",
@@ -248,8 +253,7 @@ int run(int count, char** words) {
   add_bench_options(*app.get_subcommand("bench"), arguments.bench);
   const CLI::App* maps = app.add_subcommand("maps", "List the canned scenes: what each exercises");
   if (count <= 1) {
-    report_error(
-        fmt::format("a command is missing: {} (surefoot --help tells more)", fmt::join(command_names(app), ", ")));
+    report_error(command_missing(command_names(app)));
     return exit_bad_input;
   }
   try {

@@ -211,6 +211,8 @@ int run_plan(const PlanArguments& arguments) {
     if (arguments.verbose) tell(plan);
   }
   plan.time_s = elapsed();
+  if (const std::string remark = arguments.quiet ? "" : behind_chain_remark(scene, plan); !remark.empty())
+    note("remark: " + remark);
   if (plan.status != gaits::Status::solved) return report_no_plan(arguments, scene, plan, outputs, options);
   deliver(arguments, scene, plan, outputs);
   return exit_success;

@@ -15,6 +15,8 @@ Document read_posture_document(const std::string& path, const char* for_scenes) 
   Document document = path == "-" ? Document::parse(read_stdin(), "<stdin>") : Document::read_file(path);
   if (const Node& root = document.root(); root.find("terrain") && root.find("robot"))
     root.fail(fmt::format("posture: this is a scene; expected a posture ({})", for_scenes));
+  if (const Node& root = document.root(); root.find("stances"))
+    root.fail("posture: this is a plan; expected a posture");
   return document;
 }
 

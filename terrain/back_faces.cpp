@@ -19,26 +19,51 @@ double meeting(const Point& from, const Point& direction, const Segment& segment
   return t > 0 && along >= -slack && along <= segment.length + slack ? t : std::numeric_limits<double>::infinity();
 }
 
+/// What a ray of unit direction meets, if it is a back. Through a vertex it meets both neighbours, and what is solid
+/// behind begins at the front.
+std::optional<BackFace> back_face_along(const Terrain& terrain, const Point& from, const Point& direction,
+                                        double within, const Segment* own) {
+  double front = within, back = within;
+  const Segment* met = nullptr;
+  for (const Segment& other : terrain.segments()) {
+    if (&other == own) continue;
+    const double t = meeting(from, direction, other);
+    if (other.normal.dot(direction) < 0) front = std::min(front, t);
+    else if (t < back) back = t, met = &other;
+  }
+  if (met == nullptr || back >= front - rounding * within) return std::nullopt;
+  return BackFace{met->chain, from + back * direction, own != nullptr ? own->chain : 0};
+}
+
+/// How many of `count` rays may be sent, one at least.
+std::size_t rays_of(const Terrain& terrain, std::size_t count) {
+  return std::clamp<std::size_t>(most_tests / terrain.segments().size(), 1, count);
+}
+
 }  // namespace
 
 std::optional<BackFace> back_face_seen(const Terrain& terrain, double within) {
   const auto& segments = terrain.segments();
-  const std::size_t rays = std::clamp<std::size_t>(most_tests / segments.size(), 1, segments.size());
+  const std::size_t rays = rays_of(terrain, segments.size());
   for (std::size_t k = 0; k < rays; ++k) {
     const Segment& ground = segments[k * segments.size() / rays];
     if (!ground.surface.foothold) continue;
-    const Point middle = 0.5 * (ground.a + ground.b);
-    double front = within, back = within;
-    const Segment* met = nullptr;
-    for (const Segment& other : segments) {
-      if (&other == &ground) continue;
-      const double t = meeting(middle, ground.normal, other);
-      if (other.normal.dot(ground.normal) < 0) front = std::min(front, t);
-      else if (t < back) back = t, met = &other;
+    if (auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground)) return seen;
+  }
+  return std::nullopt;
+}
+
+std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within) {
+  if (points.empty()) return std::nullopt;
+  const std::size_t rays = rays_of(terrain, points.size());
+  for (std::size_t k = 0; k < rays; ++k) {
+    const std::size_t i = k * points.size() / rays;
+    for (const double way : {1.0, -1.0}) {
+      auto seen = back_face_along(terrain, points[i], Point(0, way), within, nullptr);
+      if (!seen) continue;
+      seen->index = static_cast<int>(i);
+      return seen;
     }
-    // Through a vertex the ray meets both neighbours; the solid behind begins at the front.
-    if (met != nullptr && back < front - rounding * within)
-      return BackFace{met->chain, ground.chain, middle + back * ground.normal};
   }
   return std::nullopt;
 }

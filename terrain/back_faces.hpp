@@ -3,19 +3,23 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "terrain/terrain.hpp"
 
 namespace surefoot::terrain {
 
 struct BackFace {
-  int chain;       ///< the one that turns its back
-  int from_chain;  ///< the one that looks at it
-  Point at;        ///< where [m]
+  int chain;  ///< the one that turns its back
+  Point at;   ///< where [m]
+  int index;  ///< of what looks at it: a chain, a point
 };
 
 /// The first met by rays of length `within` [m] from the middles of segments on which a foot may stand, along their
 /// normals. Every such segment is asked where there are few, an even choice of them where there are many.
 std::optional<BackFace> back_face_seen(const Terrain& terrain, double within);
+
+/// The first met by rays of that length straight up and down from the points; of many points an even choice is asked.
+std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within);
 
 }  // namespace surefoot::terrain

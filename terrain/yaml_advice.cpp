@@ -53,11 +53,15 @@ std::string unclosed(const Source& source, char bracket, const char* what, std::
   return advice + "?";
 }
 
+constexpr const char* space_after_colon = "; a space must follow a colon";
 constexpr const char* same_column = "; keys of one map, or dashes of one list, begin in the same column";
 
 /// The parser wanted the next key or dash of a block, and found something else.
 std::string misplaced(const Source& source, std::size_t position) {
   if (source.text.substr(position, 1) == ",") return "; a list of several on one line stands in square brackets";
+  const std::string_view from = std::string_view(source.text).substr(position - source.line_before(position).size());
+  const std::string_view line = content(from.substr(0, from.find('\n')));
+  if (!has_key(line) && has_close_colon(line)) return space_after_colon;  // the line that it stopped at
   const std::string advice = advice_on_line_above(source, position);
   return advice.empty() ? same_column : advice;
 }
@@ -67,7 +71,7 @@ std::string unexpected_colon(const Source& source, std::size_t position) {
   const std::string_view before = source.line_before(position);
   const std::string_view indentation = before.substr(0, before.find_first_not_of(blanks));
   if (indentation.find('\t') != std::string_view::npos) return "; a tab stands in the indentation: indent by spaces";
-  if (has_close_colon(content(before))) return "; a space must follow a colon";
+  if (has_close_colon(content(before))) return space_after_colon;
   if (has_key(content(before))) return "; a text that holds a colon stands in quotes, a map on one line in braces {}";
   return advice_on_line_above(source, position);
 }
@@ -95,7 +99,11 @@ std::string yaml_advice(const Source& source, std::string_view message, std::siz
   if (message == "end of map flow not found") return unclosed(source, '}', "map", open);
   if (message == "end of map not found" || message == "end of sequence not found") return misplaced(source, position);
   if (message == "illegal map value") return unexpected_colon(source, position);
-  if (message == "illegal flow end") return "; a closing bracket without an opening one";
+  if (message == "illegal flow end") {
+    const std::string_view before = source.line_before(position);
+    const bool close = before.find(":{") != before.npos || before.find(":[") != before.npos;
+    return close ? space_after_colon : "; a closing bracket without an opening one";
+  }
   if (message == "illegal block entry") return "; a dash of a list stands at the beginning of its line";
   if (message.starts_with("illegal tab")) return "; indent by spaces";
   return "";

@@ -14,7 +14,10 @@
 using namespace surefoot;
 
 int main(int count, char** words) try {
-  if (count != 3) return 2;
+  if (count != 3) {
+    std::fprintf(stderr, "usage: 3_plan_and_verify SCENE PLAN, for example maps/flat.yaml plan.json\n");
+    return 2;
+  }
   const gaits::Scene scene = gaits::load_scene(words[1]);
   gaits::Plan plan = planner::search(scene, {.effort = 0});  // the first plan will do
   std::printf("%s: %s\n", words[1], gaits::to_string(plan.status));

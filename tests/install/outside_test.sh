@@ -42,21 +42,15 @@ done
 grep -q '</svg>' "$work/region.svg" || fail "2_draw_a_region draws nothing"
 "$prefix/bin/surefoot" check maps/flat.yaml "$work/plan.json" || fail "3_plan_and_verify writes a plan that does not hold"
 
-# The project that docs/library.md shows, with the README's snippet as its program.
+# The project that docs/library.md shows, with the README's program.
 mkdir -p "$work/robot"
 awk '/^```cmake$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$source/docs/library.md" >"$work/robot/CMakeLists.txt"
-{
-  echo '#include <cstdio>'
-  awk '/^```cpp$/ { inside = 1; next } /^```$/ { inside = 0 } inside && /^(#include|using)/' "$source/README.md"
-  echo 'int main() {'
-  awk '/^```cpp$/ { inside = 1; next } /^```$/ { inside = 0 } inside && !/^(#include|using)/' "$source/README.md"
-  echo '}'
-} >"$work/robot/robot.cpp"
+awk '/^```cpp$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$source/README.md" >"$work/robot/robot.cpp"
 quietly cmake -G Ninja -S "$work/robot" -B "$work/robot/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$cxx" \
   -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
 quietly cmake --build "$work/robot/build"
 "$work/robot/build/robot" >"$work/printed"
-sed -n 's,^//   ,,p' "$source/README.md" >"$work/expected"
+sed -n 's,^  //   ,,p' "$work/robot/robot.cpp" >"$work/expected"
 [[ -s $work/expected ]] || fail "the README does not say what its snippet prints"
 diff -u --label "comments of the README" --label "printed by its snippet" "$work/expected" "$work/printed" || fail "README snippet"
 

@@ -26,6 +26,24 @@ TEST_CASE("A ceiling given the wrong way round is remarked on, canned scenes are
   CHECK(canned.out.find("remark") == std::string::npos);
 }
 
+TEST_CASE("A plan over a ceiling without sides is remarked on, plans of canned scenes are not", "[validate]") {
+  const Workplace place;
+  // A plate 0.25 m over a gap, too low to go under it.
+  place.write("plate.yaml", with("[[-1, 0], [4, 0]]",
+                                 "[[-1, 0], [0.8, 0], [0.9, -0.6], [1.3, -0.6], [1.4, 0], [4, 0]]\n"
+                                 "    - vertices: [[1.3, 0.25], [0.9, 0.25]]\n      segments: {0: {foothold: false}}"));
+  const auto run = place.run("plan plate.yaml --effort 0 -o plan.json");
+  REQUIRE(run.status == 0);
+  CHECK_THAT(run.err, Catch::Contains("looks at the back of chain 1 at ("));
+  CHECK_THAT(place.run("check plate.yaml plan.json").err, Catch::Contains("looks at the back of chain 1 at ("));
+  for (const std::string name : {"chimney", "vee", "stairs_up", "ridge"})
+    CHECK_THAT(place
+                   .run("check " SUREFOOT_MAPS "/" + name + ".yaml " SUREFOOT_TESTS_DIR "/regression/golden/" + name +
+                        ".json")
+                   .err,
+               !Catch::Contains("back of chain"));
+}
+
 TEST_CASE("A scene in order is summed up on one line, status 0", "[validate]") {
   const Workplace place;
   place.write("scene.yaml", flat_scene);

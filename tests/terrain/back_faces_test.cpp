@@ -20,7 +20,7 @@ TEST_CASE("A ceiling given like ground turns its back to the ground below", "[ba
   const auto seen = back_face_seen(Terrain({ground, chain({{-0.5, 1}, {0.5, 1}})}), 1.5);
   REQUIRE(seen);
   CHECK(seen->chain == 1);
-  CHECK(seen->from_chain == 0);
+  CHECK(seen->index == 0);
   CHECK(seen->at == Point(0, 1));  // over the middle of the first segment
   CHECK_FALSE(back_face_seen(Terrain({ground, chain({{0.5, 1}, {-0.5, 1}})}), 1.5));
 }
@@ -39,6 +39,20 @@ TEST_CASE("A ray through a vertex does not pass through the solid behind", "[bac
   const auto reversed = back_face_seen(Terrain({floor, chain({block.rbegin(), block.rend()})}), 3);
   REQUIRE(reversed);
   CHECK(reversed->at == Point(0, 1));
+}
+
+TEST_CASE("A point above a ceiling without sides looks at its back, one below it or above ground does not",
+          "[back_faces]") {
+  const Terrain open({ground, chain({{0.5, 1}, {-0.5, 1}})});
+  const std::vector<Point> points{{0, 0.5}, {-0.9, 2}, {0.2, 1.25}};
+  const auto seen = back_face_over(open, points, 1);
+  REQUIRE(seen);
+  CHECK(seen->index == 2);
+  CHECK(seen->chain == 1);
+  CHECK(seen->at == Point(0.2, 1));
+  CHECK_FALSE(back_face_over(open, points, 0.2));
+  CHECK_FALSE(back_face_over(open, std::span(points).first(2), 10));
+  CHECK_FALSE(back_face_over(open, {}, 1));
 }
 
 TEST_CASE("Ground alone, a V, a riser, an overhang, a closed block look at no back", "[back_faces]") {

@@ -151,7 +151,8 @@ StartChoice choose_start(StepProposals& proposals) {
     if (!start.com) {
       choose_coms(proposals, stance, choice);
     } else if (const auto rule = gaits::broken_start_rule(scene, stance)) {
-      choice.fault += (choice.fault.empty() ? "" : "; ") + broken_rule_words(scene, stance, *rule);
+      const std::string words = broken_rule_words(scene, stance, *rule);  // pairs of legs may share it
+      if (choice.fault.find(words) == std::string::npos) choice.fault += (choice.fault.empty() ? "" : "; ") + words;
     } else {
       choice.nodes.push_back(node_of(scene, stance, proposals));
     }

@@ -58,7 +58,14 @@ AlignedBox2d contents(const Scene& scene, const Plan& plan) {
     for (const double x : {scene.goal.com_x->first, scene.goal.com_x->second}) box.extend(Vector2d(x, centre.y()));
   if (scene.goal.com_y)
     for (const double y : {scene.goal.com_y->first, scene.goal.com_y->second}) box.extend(Vector2d(centre.x(), y));
-  if (plan.status != Status::solved) box.extend(ground_between(scene, box.min().x(), box.max().x()));
+  AlignedBox2d ground = ground_between(scene, box.min().x(), box.max().x());
+  if (plan.status == Status::solved && !ground.isEmpty()) {  // ditches are shown, chasms begin
+    const double reach = scene.robot.reach_max;
+    ground.min().y() = std::max(ground.min().y(), box.min().y() - reach);
+    ground.max().y() = std::min(ground.max().y(), box.max().y());
+    if (ground.min().y() > ground.max().y()) ground.setEmpty();
+  }
+  box.extend(ground);
   return box;
 }
 

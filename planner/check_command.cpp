@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gaits/plan_io.hpp"
@@ -38,6 +40,21 @@ std::string verdict(const gaits::Verification& verification, const gaits::Plan& 
                      plan.transfers.size());
 }
 
+/// One line per fault; what is said again of later places is told at the first, with their number.
+std::string fault_lines(const gaits::Verification& verification) {
+  std::map<std::pair<gaits::Rule, std::string>, int> places;
+  for (const gaits::Fault& fault : verification.faults) ++places[{fault.rule, fault.message}];
+  std::string text;
+  for (const gaits::Fault& fault : verification.faults) {
+    int& count = places[{fault.rule, fault.message}];
+    if (count == 0) continue;
+    text += one_line(gaits::to_string(fault));
+    text += count == 1 ? "\n" : fmt::format(" (and so at {} more places)\n", count - 1);
+    count = 0;
+  }
+  return text;
+}
+
 }  // namespace
 
 int run_check(const CheckArguments& arguments) {
@@ -57,13 +74,10 @@ int run_check(const CheckArguments& arguments) {
   }
   const gaits::Verification verification = gaits::verify(scene, plan);
   std::vector<std::string> faults;
-  for (const gaits::Fault& fault : verification.faults)
-    faults.push_back(fmt::format("{}: {}: {}", fault.place, gaits::to_string(fault.rule), one_line(fault.message)));
+  for (const gaits::Fault& fault : verification.faults) faults.push_back(one_line(gaits::to_string(fault)));
   if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(scene, plan, faults));
   if (outputs.wants("--html")) outputs.put("--html", gaits::to_html(scene, plan, faults));
-  if (!outputs.to_stdout())
-    write_stdout(
-        fmt::format("{}{}{}\n", fmt::join(faults, "\n"), faults.empty() ? "" : "\n", verdict(verification, plan)));
+  if (!outputs.to_stdout()) write_stdout(fault_lines(verification) + verdict(verification, plan) + "\n");
   if (!verification.holds() && plan.scene != scene.name)
     note(fmt::format("the plan is for a scene named {}, this one is {}", plan.scene, scene.name));
   if (const std::string remark = behind_chain_remark(scene, plan); !remark.empty()) note("remark: " + remark);

@@ -49,8 +49,9 @@ int run_validate(const std::vector<std::string>& scenes);
 gaits::Scene open_scene(const std::string& path);
 /// The same with all faults in the list: nothing if there is any.
 std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults);
-/// A remark on chains that seem to be given the wrong way round; "" if there is none.
-std::string reversed_chain_remark(const gaits::Scene& scene);
+/// What is legal but most likely a mistake: chains that seem to be given the wrong way round, friction that looks like
+/// an angle; "" if there is nothing.
+std::string scene_remark(const gaits::Scene& scene);
 /// A remark on COMs of a plan that lie behind a chain, in what pictures show as solid; "" if there are none.
 std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& plan);
 /// All of stdin.

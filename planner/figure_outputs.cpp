@@ -25,12 +25,26 @@ FigureOutputs::FigureOutputs(const std::vector<Request>& requests, const std::op
     }
 }
 
+namespace {
+
+/// A name that promises another kind of file than the option writes.
+void check_ending(std::string_view option, const std::string& path) {
+  for (const std::string_view other : {".svg", ".html", ".png", ".pdf", ".jpg", ".json", ".yaml"}) {
+    const bool own = option == "-o" || other.substr(1) == option.substr(2);
+    if (!own && path.ends_with(other))
+      throw InputError(fmt::format("{} {}: expected a name that ends in .{}", option, path, option.substr(2)));
+  }
+}
+
+}  // namespace
+
 FigureOutputs::Target FigureOutputs::open(const Request& request, const std::optional<std::string>& input) {
   Target target{request.option, nullptr, {}};
   if (*request.path == "-") return target;
   target.file = std::make_unique<OutputFile>(*request.path);
   if (input && *input != "-" && target.file->same_as(*input))
     throw InputError(fmt::format("{}: is the input itself and would be overwritten", *request.path));
+  check_ending(request.option, *request.path);
   return target;
 }
 

@@ -41,7 +41,12 @@ std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultLi
   }
 }
 
-std::string reversed_chain_remark(const gaits::Scene& scene) {
+std::string scene_remark(const gaits::Scene& scene) {
+  constexpr double unheard_of = 5;  // [1] rubber on rock stays below 2
+  for (const terrain::Segment& segment : scene.terrain.segments())
+    if (segment.surface.friction > unheard_of)
+      return fmt::format("friction {:.6g} on segment {} of chain {}: is it an angle? The coefficient is its tangent",
+                         segment.surface.friction, segment.index, segment.chain);
   const auto seen = terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max);
   if (!seen) return "";
   return fmt::format(

@@ -63,6 +63,9 @@ SearchOptions search_options(const PlanArguments& arguments, const gaits::Scene&
 std::string output_format(const PlanArguments& arguments) {
   if (arguments.format) return one_of("--format", *arguments.format, {"text", "json", "yaml"});
   const std::string name = arguments.output.value_or("");
+  for (const char* picture : {".png", ".pdf"})
+    if (name.ends_with(picture))
+      throw terrain::InputError(fmt::format("-o {}: the plan itself goes there; pictures are --svg and --html", name));
   for (const char* picture : {".svg", ".html"})
     if (name.ends_with(picture))
       throw terrain::InputError(fmt::format(
@@ -180,8 +183,7 @@ int run_plan(const PlanArguments& arguments) {
   output_format(arguments);  // says what is wrong with it before anything else is done
   const gaits::Scene scene = open_scene(arguments.scene);
   SearchOptions options = search_options(arguments, scene);
-  if (const std::string remark = arguments.quiet ? "" : reversed_chain_remark(scene); !remark.empty())
-    note("remark: " + remark);
+  if (const std::string remark = arguments.quiet ? "" : scene_remark(scene); !remark.empty()) note("remark: " + remark);
   FigureOutputs outputs = open_outputs(arguments);
   if (arguments.verbose)
     note(fmt::format("{}: {} segments, planner {}, seed {}, time limit {} s", scene.name,

@@ -59,7 +59,7 @@ bool validate(const std::string& path, std::string& report) {
   if (faults.count() > 0) return false;
   fmt::format_to(std::back_inserter(report), "{}: valid: {}, {}, {}\n", name, one_line(scene->name),
                  ground_summary(scene->terrain), start);
-  if (const std::string remark = reversed_chain_remark(*scene); !remark.empty())
+  if (const std::string remark = scene_remark(*scene); !remark.empty())
     fmt::format_to(std::back_inserter(report), "{}: remark: {}\n", name, remark);
   return true;
 }

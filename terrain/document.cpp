@@ -252,6 +252,7 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
   source.text = text;
   source.faults = faults;
   source.check_characters();
+  if (text.starts_with("<")) throw source.error(0, 0, "this is a picture or a page (SVG, HTML), not YAML or JSON");
 
   std::istringstream stream(source.text);
   DocumentBuilder builder(source);

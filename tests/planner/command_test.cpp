@@ -1,4 +1,5 @@
 // The commands end to end: the built program, run on files as a user runs it.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -136,6 +137,38 @@ TEST_CASE("A plan that does not hold can be looked at with what is wrong with it
   plan["scene"] = "elsewhere";
   place.write("plan.json", plan.dump());
   CHECK_THAT(place.run("check scene.yaml plan.json").err, Catch::Contains("for a scene named elsewhere"));
+}
+
+TEST_CASE("Names that promise another kind of file are refused before anything is planned", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  for (const char* names : {"-o plan.svg", "-o plan.png", "--svg plan.png", "--svg page.html", "--html plan.svg"}) {
+    const auto run = place.run(std::string("plan scene.yaml ") + names);
+    INFO(names << ": " << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.one_error());
+  }
+  CHECK(place.count() == 1);
+  REQUIRE(place.run("plan scene.yaml -q --effort 0 -o plan.json --svg picture.svg").status == 0);
+  CHECK_THAT(place.run("plan picture.svg").err, Catch::Contains("picture.svg:1:1: this is a picture or a page"));
+}
+
+TEST_CASE("Feet that have lost their ground are told once each", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  REQUIRE(place.run("plan scene.yaml --effort 0 -o plan.json").status == 0);
+  place.write("longer.yaml", with("[[-1, 0]", "[[-2, 0]"));  // arc lengths count from the first vertex
+  const auto run = place.run("check longer.yaml plan.json");
+  CHECK(run.status == 1);
+  std::istringstream lines(run.out);
+  std::vector<std::string> said;
+  for (std::string line; std::getline(lines, line);)
+    if (const auto at = line.find("is said to stand at"); at != std::string::npos)
+      said.push_back(line.substr(line.find("foot "), line.find(" (and so") - line.find("foot ")));
+  std::sort(said.begin(), said.end());
+  CHECK(said.size() > 2);
+  CHECK(std::adjacent_find(said.begin(), said.end()) == said.end());
+  CHECK_THAT(run.out, Catch::Contains("more places)"));
 }
 
 TEST_CASE("Where the scene has become safer only what the plan states is wrong, and check says so", "[command]") {

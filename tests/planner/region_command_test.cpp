@@ -124,6 +124,7 @@ TEST_CASE("Improper input is refused on one line with its place", "[region]") {
   refused("--posture level.json --window 1,1", "--window");
   refused("--posture level.json --wrench a,b", "found a,b");
   refused("--posture level.json --svg level.json", "would be overwritten");
+  refused("--posture level.json --svg region.png", "expected a name that ends in .svg");
   refused("--posture level.json --svg a --json a", "both --svg and --json");
   refused("--posture level.json --svg - --json -", "one of them");
 }

@@ -21,6 +21,8 @@ TEST_CASE("A ceiling given the wrong way round is remarked on, canned scenes are
   CHECK(run.out.find("\npipe.yaml: remark: chain 1 turns its back to chain 0 at (1.5, 1.5)") != std::string::npos);
   CHECK(place.run("plan pipe.yaml --effort 0").err.find("chain 1 turns its back") != std::string::npos);
   CHECK(place.run("plan pipe.yaml --effort 0 -q").err.empty());
+  place.write("angle.yaml", with("0.6", "31"));
+  CHECK_THAT(place.run("validate angle.yaml").out, Catch::Contains("remark: friction 31 on segment 0 of chain 0"));
   const auto canned = place.shell("'" SUREFOOT_BINARY "' validate " SUREFOOT_MAPS "/*.yaml");
   CHECK(canned.out.find("flat.yaml: valid") != std::string::npos);
   CHECK(canned.out.find("remark") == std::string::npos);

@@ -23,7 +23,7 @@ struct MotionEnd {
 
 /// Steps tried in one mode: usual motions take tens to hundreds. Feet at one point, of which one slides, have no height
 /// to keep, and steps would shrink for ever.
-constexpr int most_steps = 10'000;
+constexpr int most_steps = 4'000;
 constexpr int refused_step = 10;  ///< counts as so many: in usual motions they are rare
 
 struct MotionLimits {

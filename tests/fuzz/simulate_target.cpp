@@ -57,7 +57,9 @@ void simulate(std::string_view bytes) {
   options.neighbourhood = 0.1 * body.extent();
   options.time_limit = 10;
   options.most_collisions = 3000;
-  const HybridRun run = judged_run(body, *from, options), again = judged_run(body, *from, options);
+  const HybridRun run = judged_run(body, *from, options);
+  if (run.outcome == HybridRun::Outcome::undecided) return;  // has been long enough
+  const HybridRun again = judged_run(body, *from, options);
   expect(run.outcome == again.outcome && run.collisions == again.collisions, "the same push ends the same way");
 }
 

@@ -76,12 +76,16 @@ bool cannot_push_up(const terrain::Foothold& foot) {
   return foot.normal.y() + foot.friction * std::abs(foot.normal.x()) < -rounding * (1 + foot.friction);
 }
 
+bool may_carry(const Start& start, int leg) {
+  const bool chosen = !start.support || leg == start.support->first || leg == start.support->second;
+  return chosen && start.feet[static_cast<std::size_t>(leg)];
+}
+
 std::optional<int> chain_above_start(const Start& start) {
   std::optional<int> chain;
   for (int leg = 0; leg < leg_count; ++leg) {
+    if (!may_carry(start, leg)) continue;
     const auto& foot = start.feet[static_cast<std::size_t>(leg)];
-    const bool may_carry = !start.support || leg == start.support->first || leg == start.support->second;
-    if (!foot || !may_carry) continue;
     if (!cannot_push_up(*foot)) return std::nullopt;
     if (!chain) chain = foot->chain;
   }

@@ -11,6 +11,9 @@ namespace surefoot::gaits {
 /// For an x [m] at which Terrain::footholds_at_x finds nothing.
 std::string no_foothold_at_x(const terrain::Terrain& ground, double x);
 
+/// Whether the first stance may stand on that leg.
+bool may_carry(const Start& start, int leg);
+
 /// Every force within its friction cone points down, beyond the rounding of a unit normal.
 bool cannot_push_up(const terrain::Foothold& foot);
 

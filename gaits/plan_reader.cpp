@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "gaits/plan_io.hpp"
+#include "gaits/scene.hpp"
 
 namespace surefoot::gaits {
 namespace {
@@ -132,7 +133,7 @@ void check_version(const Node& root) {
 Plan plan(const Node& root) {
   constexpr const char* what = "plan";
   root.entries(what);
-  if (root.find("terrain") && root.find("robot"))
+  if (looks_like_scene(root))
     root.fail("plan: this is a scene; expected a plan (surefoot check takes SCENE, then PLAN)");
   if (root.find("contacts")) root.fail("plan: this is a posture; expected a plan");
   root.allow_only({"surefoot", "scene", "status", "reason", "planner", "seed", "stances", "transfers", "safety_factor",

@@ -75,6 +75,9 @@ Scene parse_scene(std::string_view text, const std::string& name);
 std::optional<Scene> load_scene(const std::string& path, terrain::FaultList& faults);
 std::optional<Scene> parse_scene(std::string_view text, const std::string& name, terrain::FaultList& faults);
 
+/// For messages about a file in another one's place: whether a document has what only scenes have.
+bool looks_like_scene(const terrain::Node& root);
+
 stability::Contact contact_at(const terrain::Foothold& foothold);
 
 }  // namespace surefoot::gaits

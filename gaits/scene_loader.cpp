@@ -240,4 +240,6 @@ std::optional<Scene> parse_scene(std::string_view text, const std::string& name,
   return examine([&] { return terrain::Document::parse(text, name, &faults); }, name, faults);
 }
 
+bool looks_like_scene(const Node& root) { return root.find("terrain") && root.find("robot"); }
+
 }  // namespace surefoot::gaits

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "gaits/scene.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 
@@ -13,7 +14,7 @@ using terrain::Node;
 
 Document read_posture_document(const std::string& path, const char* for_scenes) {
   Document document = path == "-" ? Document::parse(read_stdin(), "<stdin>") : Document::read_file(path);
-  if (const Node& root = document.root(); root.find("terrain") && root.find("robot"))
+  if (const Node& root = document.root(); gaits::looks_like_scene(root))
     root.fail(fmt::format("posture: this is a scene; expected a posture ({})", for_scenes));
   if (const Node& root = document.root(); root.find("stances"))
     root.fail("posture: this is a plan; expected a posture");

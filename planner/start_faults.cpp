@@ -130,9 +130,7 @@ std::string hanging_feet(const gaits::Scene& scene) {
   std::string text;
   for (int leg = 0; leg < gaits::leg_count; ++leg) {
     const auto& foot = scene.start.feet[leg];
-    const auto& support = scene.start.support;
-    const bool may_carry = !support || leg == support->first || leg == support->second;
-    if (!foot || !may_carry || !gaits::cannot_push_up(*foot)) continue;
+    if (!gaits::may_carry(scene.start, leg) || !gaits::cannot_push_up(*foot)) continue;
     text += fmt::format("; foot {} hangs below chain {}, which runs from right to left there: reverse its vertices?",
                         leg + 1, foot->chain);
   }

@@ -1,6 +1,7 @@
 #include "terrain/back_faces.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -26,7 +27,7 @@ std::optional<BackFace> back_face_along(const Terrain& terrain, const Point& fro
   double front = within, back = within;
   const Segment* met = nullptr;
   for (const Segment& other : terrain.segments()) {
-    if (&other == own) continue;
+    if (&other == own || std::abs(other.a.x() - from.x()) > within + other.length) continue;  // out of the ray's reach
     const double t = meeting(from, direction, other);
     if (other.normal.dot(direction) < 0) front = std::min(front, t);
     else if (t < back) back = t, met = &other;

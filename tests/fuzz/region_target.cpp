@@ -13,15 +13,6 @@ namespace {
 using stability::Region;
 using stability::RobustOracle;
 
-std::optional<planner::DisturbedPosture> read(std::string_view bytes) {
-  try {
-    return planner::read_disturbed_posture(terrain::Document::parse(bytes, "input").root());
-  } catch (const terrain::InputError& fault) {
-    expect_located(fault.what());
-    return std::nullopt;
-  }
-}
-
 /// Of areas that are sums of many: far above the rounding of a sum.
 double slack(const Region& region) { return 1e-9 * region.equilibrium_area; }
 
@@ -58,7 +49,7 @@ bool ordinary(const planner::DisturbedPosture& posture) {
 }  // namespace
 
 void region(std::string_view bytes) {
-  const auto posture = read(bytes);
+  const auto posture = read_located(bytes, planner::read_disturbed_posture);
   if (!posture) return;
   stability::RegionOptions options;
   options.area_tolerance = options.curve_tolerance = 1e-2;  // cheap

@@ -12,15 +12,6 @@ namespace {
 using stability::HybridBody;
 using stability::HybridRun;
 
-std::optional<planner::PushedPosture> read(std::string_view bytes) {
-  try {
-    return planner::read_pushed_posture(terrain::Document::parse(bytes, "input").root());
-  } catch (const terrain::InputError& fault) {
-    expect_located(fault.what());
-    return std::nullopt;
-  }
-}
-
 std::optional<stability::BodyState> start(const HybridBody& body, const planner::Push& push) {
   try {
     return planner::start_of(body, push);
@@ -46,7 +37,7 @@ HybridRun judged_run(const HybridBody& body, const stability::BodyState& from,
 }  // namespace
 
 void simulate(std::string_view bytes) {
-  const auto posture = read(bytes);
+  const auto posture = read_located(bytes, planner::read_pushed_posture);
   if (!posture) return;
   const HybridBody body(posture->contacts, posture->com.value_or(Eigen::Vector2d::Zero()), posture->rho,
                         posture->gravity.value_or(9.81));

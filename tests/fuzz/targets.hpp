@@ -3,10 +3,14 @@
 // too.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
+
+#include "terrain/document.hpp"
 
 namespace surefoot::fuzz {
 
@@ -38,6 +42,18 @@ const std::vector<Target>& targets();
 
 /// `what` is a message for the user: one line that begins with the place "input:".
 void expect_located(std::string_view what);
+
+/// read(root) of the bytes as a document; nothing where it refuses them, with a place.
+template <class Read>
+auto read_located(std::string_view bytes, Read&& read)
+    -> std::optional<std::invoke_result_t<Read, const terrain::Node&>> {
+  try {
+    return read(terrain::Document::parse(bytes, "input").root());
+  } catch (const terrain::InputError& fault) {
+    expect_located(fault.what());
+    return std::nullopt;
+  }
+}
 void expect(bool holds, const std::string& promise);
 
 }  // namespace surefoot::fuzz

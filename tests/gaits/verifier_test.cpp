@@ -1,10 +1,11 @@
-// The verifier accepts plans made by hand and names the rule of every single fault put into them.
+// The verifier accepts plans made by hand, and names every fault of their feet, legs, start and goal.
 #include "gaits/verifier.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
 #include "tests/gaits/fixtures.hpp"
+#include "tests/gaits/verifier_faults.hpp"
 
 using namespace surefoot;
 using namespace surefoot::gaits;
@@ -13,44 +14,10 @@ using surefoot::gaits::testing::foot_at;
 using surefoot::gaits::testing::level_factor;
 using surefoot::gaits::testing::level_ground_and;
 using surefoot::gaits::testing::plan_by_hand;
+using surefoot::gaits::testing::require_fault;
+using surefoot::gaits::testing::require_holds;
+using surefoot::gaits::testing::require_only;
 using surefoot::gaits::testing::scene_on;
-
-namespace {
-
-std::string all_faults(const Verification& verification) {
-  std::string text;
-  for (const Fault& fault : verification.faults) text += to_string(fault) + "\n";
-  return text;
-}
-
-/// Every fault is of this rule, and there is one at this place that says this.
-void require_only(const Verification& verification, Rule rule, const std::string& place, const std::string& part) {
-  INFO(all_faults(verification));
-  REQUIRE_FALSE(verification.holds());
-  bool found = false;
-  for (const Fault& fault : verification.faults) {
-    CHECK(fault.rule == rule);
-    found = found || (fault.place == place && fault.message.find(part) != std::string::npos);
-  }
-  CHECK(found);
-}
-
-/// One such fault, whatever else is broken with it.
-void require_fault(const Verification& verification, Rule rule, const std::string& place, const std::string& part) {
-  INFO(all_faults(verification));
-  bool found = false;
-  for (const Fault& fault : verification.faults) {
-    found = found || (fault.rule == rule && fault.place == place && fault.message.find(part) != std::string::npos);
-  }
-  CHECK(found);
-}
-
-void require_holds(const Verification& verification) {
-  INFO(all_faults(verification));
-  CHECK(verification.holds());
-}
-
-}  // namespace
 
 TEST_CASE("a plan made by hand on level ground holds", "[verifier]") {
   const Scene scene = scene_on(level_ground_and());
@@ -87,77 +54,6 @@ TEST_CASE("a plan of no step holds where the start reaches the goal", "[verifier
   Plan plan = plan_by_hand(scene);
   plan.stances.resize(1);
   plan.transfers.clear();
-  require_holds(verify(scene, plan));
-}
-
-TEST_CASE("a COM out of reach is rejected with leg, distance and place on the line", "[verifier]") {
-  Scene scene = scene_on(level_ground_and());
-  SECTION("too far: leg 3 touches down 0.781 m away") {
-    scene.robot.reach_max = 0.75;
-    require_only(verify(scene, plan_by_hand(scene)), Rule::reach, "transfer 1 (leg 3)",
-                 "foot 3 is 0.781024968 m from the COM at lambda = 0; at most 0.75 is allowed");
-  }
-  SECTION("too near in the middle of a line whose ends are far enough") {
-    scene.robot.reach_min = 0.52;  // stances: sqrt(0.04 + 0.25) = 0.5385; over foot 2 at half way: 0.5
-    const auto verification = verify(scene, plan_by_hand(scene));
-    require_only(verification, Rule::reach, "transfer 1 (leg 3)",
-                 "foot 2 is 0.5 m from the COM at lambda = 0.5; at least 0.52 is required");
-    require_only(verification, Rule::reach, "transfer 2 (leg 1)", "foot 3 is 0.5 m");
-    CHECK(verification.faults.size() == 2);
-  }
-  SECTION("limits are closed") {
-    scene.robot.reach_max = std::hypot(0.6, 0.5);
-    require_holds(verify(scene, plan_by_hand(scene)));
-    scene.robot.reach_max = std::hypot(0.6, 0.5) * (1 - 1e-8);
-    require_fault(verify(scene, plan_by_hand(scene)), Rule::reach, "transfer 1 (leg 3)", "foot 3");
-  }
-}
-
-TEST_CASE("a stance is rejected where the centre of pressure can leave its feet", "[verifier]") {
-  // Feet 0.2 m on either side, 0.1 * 0.5 + 0.03 = 0.08 m of sway: the COM may be 0.12 m off the middle.
-  Scene scene = scene_on(level_ground_and());
-  scene.goal = {std::pair(-1.0, 1.0), {}};
-  Plan plan = plan_by_hand(scene);
-  plan.stances.resize(1);
-  plan.transfers.clear();
-  const double x = GENERATE(0.119, 0.121, -0.119, -0.121);
-  plan.stances[0].com.x() = x;
-  plan.stances[0].safety_factor = plan.safety_factor = level_factor(scene, 0.2 - std::abs(x), 0.5);
-  if (std::abs(x) < 0.12) {
-    require_holds(verify(scene, plan));
-  } else {
-    require_only(verify(scene, plan), Rule::stance_stability, "stance 1", "not stable");
-  }
-}
-
-// Feet on slopes -0.3, 0.1 and 1.2; rho = 0.05 m. At lambda = 0.65 the COM is (0.092, 0.44), the feet have
-// r x n = -0.425, -0.086, -0.08 for n = (-slope, 1), and with p = 0, q = 0.04 the body falls free of all of them (FFF):
-// n . a + (r x n) alpha = -1 - (r x n) q / rho^2 = 5.8, 0.38, 0.28 > 0.
-TEST_CASE("a transfer is rejected that is stable at its ends and not between them", "[verifier]") {
-  Scene scene =
-      scene_on({chain({{-0.6, 0.095}, {-0.3, 0.005}, {-0.05, -0.01}, {0.15, 0.01}, {0.25, 0.14}, {0.35, 0.26}}, 1)});
-  scene.robot.radius_of_gyration = 0.05;
-  scene.robot.reach_min = 0.1;
-  scene.disturbance = {0.05, 0.04};
-  scene.goal = {std::pair(0.19, 0.19), {}};
-  const auto foot = [&](double x) { return scene.terrain.footholds_at_x(x).at(0); };
-  scene.start.feet = {foot(-0.45), foot(0.05), std::nullopt};
-  Plan plan;
-  plan.status = Status::solved;
-  plan.stances = {Stance{scene.start.feet, {-0.09, 0.7}, 0, ""},
-                  Stance{Feet{std::nullopt, foot(0.05), foot(0.3)}, {0.19, 0.3}, 0, ""}};
-  plan.transfers = {Transfer{2, foot(0.3), 0, 0, ""}};
-  rate(scene, plan);
-  require_only(verify(scene, plan), Rule::transfer_stability, "transfer 1 (leg 3)", "not stable at lambda = 0.");
-  CHECK(broken_transfer_rule(scene, plan.stances[0], plan.transfers[0], plan.stances[1].com, std::nullopt) ==
-        Rule::transfer_stability);
-  CHECK(plan.transfers[0].safety_factor < 1);
-  CHECK(plan.stances[0].safety_factor > 1);
-  CHECK(plan.stances[1].safety_factor > 1);
-
-  // A robot that braces need not mind.
-  scene.criterion = Criterion::equilibrium;
-  rate(scene, plan);
   require_holds(verify(scene, plan));
 }
 
@@ -260,183 +156,6 @@ TEST_CASE("feet stand where the scene lets them, and where the plan says", "[ver
     plan.stances[0].feet[0]->friction = 0;
     require_holds(verify(scene, plan));
   }
-}
-
-TEST_CASE("the scene's friction decides, not the plan's", "[verifier]") {
-  // kappa = 0.1: feet hold the whole box only where mu > 0.1.
-  auto ground = chain({{-5, 0}, {5, 0}}, 0.09);
-  const Scene slippery = scene_on({ground});
-  const Plan plan = plan_by_hand(scene_on(level_ground_and()));
-  require_fault(verify(slippery, plan), Rule::stance_stability, "stance 1", "not stable");
-  require_fault(verify(slippery, plan), Rule::transfer_stability, "transfer 1 (leg 3)", "not stable");
-}
-
-TEST_CASE("the COM keeps clear of terrain along the line and does not pass through it", "[verifier]") {
-  SECTION("a needle hangs into the line") {
-    const Scene scene = scene_on(level_ground_and({chain({{0.2, 1}, {0.2, 0.45}})}));
-    require_only(verify(scene, plan_by_hand(scene)), Rule::clearance, "transfer 1 (leg 3)",
-                 "the COM meets the terrain (chain 1, segment 0)");
-  }
-  SECTION("it does so too where no clearance is asked for") {
-    Scene scene = scene_on(level_ground_and({chain({{0.2, 1}, {0.2, 0.45}})}));
-    scene.robot.clearance = 0;
-    require_only(verify(scene, plan_by_hand(scene)), Rule::clearance, "transfer 1 (leg 3)", "meets the terrain");
-  }
-  SECTION("a needle ends 0.03 m above the line") {
-    Scene scene = scene_on(level_ground_and({chain({{0.2, 1}, {0.2, 0.53}})}));
-    require_only(verify(scene, plan_by_hand(scene)), Rule::clearance, "transfer 1 (leg 3)",
-                 "within 0.03 m of the terrain (chain 1, segment 0); 0.05 is required");
-    scene.robot.clearance = 0.03 - 1e-12;
-    require_holds(verify(scene, plan_by_hand(scene)));
-  }
-  SECTION("a COM at rest too near the ground") {
-    Scene scene = scene_on(level_ground_and());
-    scene.robot.clearance = 0.51;
-    require_only(verify(scene, plan_by_hand(scene)), Rule::clearance, "stance 3", "within 0.5 m of the terrain");
-  }
-}
-
-TEST_CASE("legs do not cut the terrain at touch-down, at lift-off and at the start", "[verifier]") {
-  SECTION("touch-down: the leg from (0, 0.5) to (0.6, 0) passes (0.3, 0.25)") {
-    const Scene scene = scene_on(level_ground_and({chain({{0.3, 0.24}, {0.3, 0.26}})}));
-    require_only(verify(scene, plan_by_hand(scene)), Rule::leg_visibility, "transfer 1 (leg 3)", "at touch-down leg 3");
-  }
-  SECTION("touching counts") {
-    // A single stance on a dyadic grid: the leg from (0, 0.5) to (0.25, 0) passes (0.125, 0.25) exactly.
-    for (const double end : {0.25, 0.2500001}) {
-      Scene scene = scene_on(level_ground_and({chain({{0.125, 0.3}, {0.125, end}})}));
-      scene.goal = {std::pair(-1.0, 1.0), {}};
-      scene.start.feet = {foot_at(scene, 4.75), foot_at(scene, 5.25), std::nullopt};
-      Plan plan = plan_by_hand(scene);
-      plan.stances = {Stance{scene.start.feet, {0, 0.5}, level_factor(scene, 0.25, 0.5), ""}};
-      plan.transfers.clear();
-      plan.safety_factor = plan.stances[0].safety_factor;
-      if (end == 0.25) {
-        require_only(verify(scene, plan), Rule::leg_visibility, "stance 1", "meets chain 1");
-      } else {
-        require_holds(verify(scene, plan));
-      }
-    }
-  }
-  SECTION("lift-off: the leg from (0.4, 0.5) to (-0.2, 0) passes (-0.1, 0.083)") {
-    const Scene scene = scene_on(level_ground_and({chain({{-0.1, 0.07}, {-0.1, 0.09}})}));
-    require_only(verify(scene, plan_by_hand(scene)), Rule::leg_visibility, "transfer 1 (leg 3)", "at lift-off leg 1");
-  }
-  SECTION("start: the leg from (0, 0.5) to (-0.2, 0) passes (-0.1, 0.25)") {
-    const Scene scene = scene_on(level_ground_and({chain({{-0.1, 0.24}, {-0.1, 0.26}})}));
-    require_only(verify(scene, plan_by_hand(scene)), Rule::leg_visibility, "stance 1", "at the start leg 1");
-  }
-  SECTION("a robot below the ground: free space is on the left") {
-    Scene scene = scene_on({chain({{5, 0}, {-5, 0}})});
-    Plan plan = plan_by_hand(scene);
-    for (std::size_t leg = 0; leg < 2; ++leg) scene.start.feet[leg] = plan.stances[0].feet[leg];
-    require_fault(verify(scene, plan), Rule::leg_visibility, "stance 1", "leg 1 comes through the ground");
-  }
-}
-
-TEST_CASE("the free leg must be able to swing one way or the other", "[verifier]") {
-  // Transfer 2: leg 1 goes from (-0.2, 0) to (1, 0) about (0.4, 0.5); shortest it is 0.2 m long.
-  const auto below = chain({{0.38, 0.35}, {0.42, 0.35}}), above = chain({{0.38, 0.65}, {0.42, 0.65}});
-  SECTION("blocked both ways") {
-    const Scene scene = scene_on(level_ground_and({below, above}));
-    require_only(verify(scene, plan_by_hand(scene)), Rule::swing, "transfer 2 (leg 1)",
-                 "cannot swing from (-0.2, 0) to (1, 0) about (0.4, 0.5): chain 1, segment 0 and chain 2, segment 0");
-  }
-  SECTION("one way free") {
-    for (const auto& obstacle : {below, above}) {
-      const Scene scene = scene_on(level_ground_and({obstacle}));
-      require_holds(verify(scene, plan_by_hand(scene)));
-    }
-  }
-  SECTION("a shorter leg passes between them") {
-    Scene scene = scene_on(level_ground_and({below, above}));
-    scene.robot.reach_min = 0.149;
-    require_holds(verify(scene, plan_by_hand(scene)));
-    scene.robot.reach_min = 0.151;
-    require_only(verify(scene, plan_by_hand(scene)), Rule::swing, "transfer 2 (leg 1)", "cannot swing");
-  }
-  SECTION("the first step swings from the start foot, if there is one") {
-    // About (0, 0.5) from (-0.4, 0) to (0.6, 0).
-    Scene scene =
-        scene_on(level_ground_and({chain({{-0.02, 0.35}, {0.02, 0.35}}), chain({{-0.02, 0.65}, {0.02, 0.65}})}));
-    require_holds(verify(scene, plan_by_hand(scene)));
-    scene.start.feet[2] = foot_at(scene, 4.6);
-    require_only(verify(scene, plan_by_hand(scene)), Rule::swing, "transfer 1 (leg 3)", "cannot swing");
-  }
-}
-
-TEST_CASE("a leg that was set down and lifted again swings from where it was set down", "[verifier]") {
-  // Leg 3 is set down at x = 0.45 and lifted; then about (0.05, 0.5) it swings on to x = 0.6. Under the COM a bar spans
-  // the directions from (0.45, 0) to (0.6, 0), another hangs above: blocked both ways. Neither is in the way of a leg.
-  const Scene scene =
-      scene_on(level_ground_and({chain({{0.17, 0.371}, {0.174, 0.374}}), chain({{0.03, 0.65}, {0.07, 0.65}})}));
-  Plan plan = plan_by_hand(scene);
-  plan.stances.insert(plan.stances.begin(), plan.stances.front());
-  plan.stances[1].com = {0.05, 0.5};
-  plan.transfers.insert(plan.transfers.begin(), Transfer{2, foot_at(scene, 5.45), 2, 0, ""});
-  rate(scene, plan);
-  require_only(verify(scene, plan), Rule::swing, "transfer 2 (leg 3)", "cannot swing from (0.45, 0) to (0.6, 0)");
-  CHECK(broken_transfer_rule(scene, plan.stances[1], plan.transfers[1], plan.stances[2].com, foot_at(scene, 5.45)) ==
-        Rule::swing);
-}
-
-TEST_CASE("stated safety factors are compared with those found", "[verifier]") {
-  const Scene scene = scene_on(level_ground_and());
-  Plan plan = plan_by_hand(scene);
-  SECTION("of a stance") {
-    plan.stances[1].safety_factor *= 1 + 1e-5;
-    require_only(verify(scene, plan), Rule::stance_stability, "stance 2", "the stated safety factor is 2.50002");
-  }
-  SECTION("of a transfer") {
-    plan.transfers[1].safety_factor *= 1 - 1e-5;
-    require_only(verify(scene, plan), Rule::transfer_stability, "transfer 2 (leg 1)",
-                 "the stated safety factor is 2.4999");
-  }
-  SECTION("of the plan: the least of all") {
-    plan.safety_factor = 2.4;
-    require_only(verify(scene, plan), Rule::gait, "plan", "the stated safety factor is 2.4");
-  }
-  SECTION("infinite or not a number") {
-    plan.stances[1].safety_factor = std::numeric_limits<double>::infinity();
-    require_only(verify(scene, plan), Rule::stance_stability, "stance 2", "the stated safety factor is inf");
-    plan.stances[1].safety_factor = std::numeric_limits<double>::quiet_NaN();
-    require_only(verify(scene, plan), Rule::stance_stability, "stance 2", "the stated safety factor is nan");
-  }
-  SECTION("six digits suffice") {
-    plan.stances[1].safety_factor *= 1 + 9e-7;
-    require_holds(verify(scene, plan));
-  }
-  SECTION("without disturbances the factor is infinite") {
-    Scene calm = scene_on(level_ground_and());
-    calm.disturbance = {0, 0};
-    for (Stance& stance : plan.stances) stance.safety_factor = std::numeric_limits<double>::infinity();
-    for (Transfer& transfer : plan.transfers) transfer.safety_factor = std::numeric_limits<double>::infinity();
-    plan.safety_factor = std::numeric_limits<double>::infinity();
-    require_holds(verify(calm, plan));
-  }
-}
-
-TEST_CASE("a false factor is told of a stance that fails by another criterion, not of one that is not robust",
-          "[verifier]") {
-  Scene scene = scene_on(level_ground_and());
-  scene.criterion = Criterion::frictional;
-  scene.restitution = 0.99;  // clattering on level ground dies out only for small ones
-  Plan plan = plan_by_hand(scene);
-  plan.stances[1].safety_factor = 99;
-  require_fault(verify(scene, plan), Rule::stance_stability, "stance 2", "not frictionally stable");
-  require_fault(verify(scene, plan), Rule::stance_stability, "stance 2", "the stated safety factor is 99");
-  scene.criterion = Criterion::robust;
-  scene.restitution.reset();
-  plan = plan_by_hand(scene);
-  plan.stances[1].com.x() += 10;  // out of balance
-  int stated = 0, unstable = 0;
-  for (const Fault& fault : verify(scene, plan).faults) {
-    if (fault.place != "stance 2") continue;
-    stated += fault.message.starts_with("the stated safety factor");
-    unstable += fault.message.starts_with("not stable");
-  }
-  CHECK(unstable == 1);
-  CHECK(stated == 0);
 }
 
 TEST_CASE("the goal is reached by the last stance", "[verifier]") {

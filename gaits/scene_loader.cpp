@@ -19,6 +19,26 @@ using terrain::Node;
 
 constexpr std::int64_t format_version = 1;
 
+const terrain::KeyHomes key_homes{{"at the top level",
+                                   {"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal",
+                                    "search"}},
+                                  {"inside \"terrain\"", {"chains"}},
+                                  {"inside \"terrain\", or an entry of \"segments\"", {"friction"}},
+                                  {"inside an entry of \"chains\"", {"vertices", "segments"}},
+                                  {"inside an entry of \"segments\"", {"foothold"}},
+                                  {"inside \"robot\"", {"radius_of_gyration", "reach", "clearance", "mass"}},
+                                  {"inside \"disturbance\"", {"kappa", "nu"}},
+                                  {"inside \"stability\"", {"criterion", "restitution"}},
+                                  {"inside \"start\"", {"feet", "support", "com"}},
+                                  {"inside \"goal\"", {"com_x", "com_y"}},
+                                  {"inside \"search\"", {"seed", "time_limit", "planner", "objective"}}};
+
+/// The document, told where the keys of a scene belong.
+terrain::Document as_scene(terrain::Document document) {
+  document.know_homes(key_homes);
+  return document;
+}
+
 // Advice where a key is missing.
 constexpr const char* a_version = "; add \"surefoot: 1\" as the first line";
 constexpr const char* no_disturbance = "; for none add \"disturbance: {kappa: 0, nu: 0}\"";
@@ -215,7 +235,7 @@ Scene read_scene(const Node& root, const std::string& file) {
 template <class Open>
 std::optional<Scene> examine(const Open& open, const std::string& file, terrain::FaultList& faults) {
   try {
-    const terrain::Document document = open();
+    const terrain::Document document = as_scene(open());
     return read_scene(document.root(), file);
   } catch (const terrain::InputError& fault) {
     faults.add(fault);
@@ -226,10 +246,12 @@ std::optional<Scene> examine(const Open& open, const std::string& file, terrain:
 
 }  // namespace
 
-Scene load_scene(const std::string& path) { return read_scene(terrain::Document::read_file(path).root(), path); }
+Scene load_scene(const std::string& path) {
+  return read_scene(as_scene(terrain::Document::read_file(path)).root(), path);
+}
 
 Scene parse_scene(std::string_view text, const std::string& name) {
-  return read_scene(terrain::Document::parse(text, name).root(), name);
+  return read_scene(as_scene(terrain::Document::parse(text, name)).root(), name);
 }
 
 std::optional<Scene> load_scene(const std::string& path, terrain::FaultList& faults) {

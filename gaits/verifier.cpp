@@ -31,9 +31,15 @@ class Verifier {
     Verification result;
     if (check_shape()) {
       rebuild_all();
-      for (std::size_t k = 0; k < plan_.stances.size(); ++k, ++result.stances) check_stance(k);
+      for (std::size_t k = 0; k < plan_.stances.size(); ++k, ++result.stances) {
+        check_stance(k);
+        result.stances_with_lost_feet += has_lost(k);
+      }
       const std::size_t transfers = std::min(plan_.transfers.size(), plan_.stances.size() - 1);
-      for (std::size_t k = 0; k < transfers; ++k, ++result.transfers) check_transfer(k);
+      for (std::size_t k = 0; k < transfers; ++k, ++result.transfers) {
+        check_transfer(k);
+        result.transfers_with_lost_feet += has_lost(k) || !landing_[k];
+      }
       check_start();
       check_goal();
       check_least_factor();
@@ -60,6 +66,8 @@ class Verifier {
   void check_goal();
   void check_least_factor();
 
+  /// Whether stance k has a foot that could not be rebuilt.
+  bool has_lost(std::size_t k) const;
   std::optional<Foot> lifted_from(std::size_t k) const;
   const Point& com(std::size_t k) const { return plan_.stances[k].com; }
   bool can_ask(std::size_t k) const { return com(k).allFinite(); }
@@ -102,6 +110,13 @@ void Verifier::rebuild_all() {
     const Transfer& transfer = plan_.transfers[k];
     landing_.push_back(checks_.rebuild(transfer_name(k, transfer.leg), transfer.leg, transfer.foothold));
   }
+  checks_.tell_lost_feet();
+}
+
+bool Verifier::has_lost(std::size_t k) const {
+  for (std::size_t leg = 0; leg < leg_count; ++leg)
+    if (plan_.stances[k].feet[leg] && !feet_[k][leg]) return true;
+  return false;
 }
 
 void Verifier::check_stance(std::size_t k) {

@@ -15,61 +15,13 @@ namespace {
 // Points of a line, ends included, at which the verdict of the straight-line test is looked at again.
 constexpr int line_samples = 17;
 
-std::string show(const Point& p) { return fmt::format("({:.6g}, {:.6g})", p.x(), p.y()); }
-
 }  // namespace
+
+std::string show(const Point& p) { return fmt::format("({:.6g}, {:.6g})", p.x(), p.y()); }
 
 bool same_factor(double stated, double found) {
   if (std::isinf(stated) || std::isinf(found)) return stated == found;
   return std::abs(stated - found) <= safety_factor_tolerance * std::max(std::abs(stated), std::abs(found));
-}
-
-std::optional<Foot> Checks::rebuild(const std::string& place, int leg, const terrain::Foothold& stated) {
-  // Segments lie in the order of chains and arc lengths: the last one that begins before the foot.
-  const std::vector<Segment>& segments = scene_.terrain.segments();
-  const auto after = std::partition_point(segments.begin(), segments.end(), [&stated](const Segment& segment) {
-    return segment.chain < stated.chain || (segment.chain == stated.chain && segment.s_begin < stated.s);
-  });
-  const auto end = std::partition_point(after, segments.end(),
-                                        [&stated](const Segment& segment) { return segment.chain <= stated.chain; });
-  const bool chain_exists = end != segments.begin() && std::prev(end)->chain == stated.chain;
-  const double chain_length = chain_exists ? std::prev(end)->s_begin + std::prev(end)->length : 0;
-  if (after != segments.begin() && std::prev(after)->chain == stated.chain &&
-      stated.s < std::prev(after)->s_begin + std::prev(after)->length) {
-    const Segment& segment = *std::prev(after);
-    if (!segment.surface.foothold) {
-      note(Rule::foothold, place, "foot {} stands on segment {} of chain {}, where no foot may stand", leg + 1,
-           segment.index, segment.chain);
-    }
-    const double part = (stated.s - segment.s_begin) / segment.length;
-    const Foot foot{stated.s, &segment, segment.a + part * (segment.b - segment.a)};
-    compare_with_stated(place, leg, stated, foot);
-    return foot;
-  }
-  if (!chain_exists) {
-    note(Rule::foothold, place, "foot {} stands on chain {}, which does not exist", leg + 1, stated.chain);
-  } else if (stated.s >= 0 && stated.s <= chain_length) {
-    note(Rule::foothold, place, "foot {} stands on a vertex of chain {} (s = {})", leg + 1, stated.chain, stated.s);
-  } else {
-    note(Rule::foothold, place, "foot {} stands at s = {}, outside chain {} of length {:.6g} m", leg + 1, stated.s,
-         stated.chain, chain_length);
-  }
-  return std::nullopt;
-}
-
-void Checks::compare_with_stated(const std::string& place, int leg, const terrain::Foothold& stated, const Foot& foot) {
-  if (stated.segment != foot.segment->index) {
-    note(Rule::foothold, place, "foot {} is said to stand on segment {}, but s = {} is on segment {}", leg + 1,
-         stated.segment, stated.s, foot.segment->index);
-  }
-  // A position and an arc length are rounded to doubles: allow that besides the slack.
-  const double along = foot.segment->s_begin + foot.segment->length;
-  const double rounding =
-      8 * std::numeric_limits<double>::epsilon() * std::max(foot.position.cwiseAbs().maxCoeff(), along);
-  if (!((stated.position - foot.position).cwiseAbs().maxCoeff() <= slack_ + rounding)) {
-    note(Rule::foothold, place, "foot {} is said to stand at {}, but s = {} of chain {} is at {}", leg + 1,
-         show(stated.position), stated.s, stated.chain, show(foot.position));
-  }
 }
 
 void Checks::check_reach(const std::string& place, const Posture& feet, const Point& from, const Point& to) {

@@ -40,8 +40,11 @@ class Checks {
     faults_.back().stated = true;
   }
 
-  /// The foot at (chain, s); also compares segment and position with what is stated. Nothing where no foot can be.
+  /// The foot at (chain, s); also compares the segment with what is stated. Nothing where no foot can be, or where the
+  /// position stated is another one: a lost foot. `stated` is referred to until tell_lost_feet.
   std::optional<Foot> rebuild(const std::string& place, int leg, const terrain::Foothold& stated);
+  /// Notes all feet lost so far, and what has come between them and the ground where that can be told.
+  void tell_lost_feet();
   void check_reach(const std::string& place, const Posture& feet, const Point& from, const Point& to);
   void check_clearance(const std::string& place, const Point& from, const Point& to);
   void check_leg(const std::string& place, const char* when, int leg, const Point& com, const Foot& foot);
@@ -55,7 +58,25 @@ class Checks {
   std::vector<Fault>& faults() { return faults_; }
 
  private:
-  void compare_with_stated(const std::string& place, int leg, const terrain::Foothold& stated, const Foot& foot);
+  struct LostFoot {
+    std::string place;
+    int leg;
+    const terrain::Foothold* stated;
+    std::string message;
+  };
+  template <typename... Parts>
+  void lose(const std::string& place, int leg, const terrain::Foothold& stated, fmt::format_string<Parts...> format,
+            Parts&&... parts) {
+    lost_.push_back(
+        {place, leg, &stated, fmt::format("foot {} ", leg + 1) + fmt::format(format, std::forward<Parts>(parts)...)});
+  }
+  struct Found {
+    int chain;
+    double s;  ///< [m]
+  };
+  /// Where on the ground the stated position lies, on the stated chain if it can be; nothing if it lies elsewhere.
+  std::optional<Found> ground_at(const terrain::Foothold& stated) const;
+  static std::string cause_of(const terrain::Foothold& stated, const Found& found);  ///< why it is found there
   /// Where the place is `unstable`, it goes without saying that it has not the factor stated.
   void check_factor(Rule rule, const std::string& place, double stated, double found, bool unstable);
   void sample_line(const std::string& place, const Posture& feet, const Point& from, const Point& to,
@@ -73,7 +94,10 @@ class Checks {
   const double slack_;
   double least_factor_ = std::numeric_limits<double>::infinity();
   std::vector<Fault> faults_;
+  std::vector<LostFoot> lost_;
 };
+
+std::string show(const Point& p);  ///< "(1.5, 0.25)", for messages
 
 /// Whether two safety factors are the same to safety_factor_tolerance.
 bool same_factor(double stated, double found);

@@ -18,6 +18,15 @@ namespace surefoot::planner {
 
 namespace {
 
+/// "; not judged, as feet are not where the plan says: 3 stances and 2 transfers", or nothing.
+std::string not_judged(const gaits::Verification& verification) {
+  const auto counted = [](int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+  const int stances = verification.stances_with_lost_feet, transfers = verification.transfers_with_lost_feet;
+  if (stances == 0 && transfers == 0) return "";
+  return fmt::format("; not judged, as feet are not where the plan says: {} of {} and {} of {}", stances,
+                     counted(verification.stances, "stance"), transfers, counted(verification.transfers, "transfer"));
+}
+
 /// "does not hold: 35 faults in 3 of 5 stances and 3 of 4 transfers".
 std::string verdict(const gaits::Verification& verification, const gaits::Plan& plan) {
   if (verification.holds())
@@ -34,10 +43,10 @@ std::string verdict(const gaits::Verification& verification, const gaits::Plan& 
     if (fault.place.starts_with("stance")) stances.insert(fault.place);
     else if (fault.place.starts_with("transfer")) transfers.insert(fault.place);
   if (stances.empty() && transfers.empty())
-    return fmt::format("does not hold: {} fault{}", count, count == 1 ? "" : "s");
-  return fmt::format("does not hold: {} fault{} in {} of {} stances and {} of {} transfers", count,
+    return fmt::format("does not hold: {} fault{}{}", count, count == 1 ? "" : "s", not_judged(verification));
+  return fmt::format("does not hold: {} fault{} in {} of {} stances and {} of {} transfers{}", count,
                      count == 1 ? "" : "s", stances.size(), plan.stances.size(), transfers.size(),
-                     plan.transfers.size());
+                     plan.transfers.size(), not_judged(verification));
 }
 
 /// One line per fault; what is said again of later places is told at the first, with their number.
@@ -49,7 +58,7 @@ std::string fault_lines(const gaits::Verification& verification) {
     int& count = places[{fault.rule, fault.message}];
     if (count == 0) continue;
     text += one_line(gaits::to_string(fault));
-    text += count == 1 ? "\n" : fmt::format(" (and so at {} more places)\n", count - 1);
+    text += count == 1 ? "\n" : fmt::format(" (and so at {} more place{})\n", count - 1, count == 2 ? "" : "s");
     count = 0;
   }
   return text;

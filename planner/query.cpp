@@ -74,7 +74,8 @@ json parse(std::string_view line) {
     if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
     if (const auto column = message.find("column "); column != std::string::npos) message.erase(0, column);
     constexpr std::size_t most = 120;  // characters: the parser quotes what it read
-    throw BadLine("not JSON: " + terrain::shown(message, most));
+    const bool cut = message.find("unexpected end of input") != std::string::npos;
+    throw BadLine("not JSON: " + terrain::shown(message, most) + (cut ? " (a question stands on one line)" : ""));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -20,6 +21,8 @@ namespace {
 
 using stability::HybridBody;
 using terrain::InputError;
+
+using Clock = std::chrono::steady_clock;
 
 constexpr double earth_gravity = 9.81;    // [m/s^2]
 constexpr double usual_time_limit = 100;  // [s]
@@ -130,7 +133,14 @@ int run_simulate(const SimulateArguments& arguments) {
       throw InputError("--sample draws the pushes: leave out q, q_rate, heights and heights_rate");
     if (!request.contacts.empty() && request.contacts.size() != 2)
       throw InputError("--sample: expected a posture of two contacts");
+    request.progress = [&request, next = Clock::now()](std::uint64_t done) mutable {
+      const auto now = Clock::now();
+      if (now < next) return;
+      next = now + std::chrono::milliseconds(100);
+      show_progress(fmt::format("{} of {} pushes", done, request.runs));
+    };
     const SampleReport report = sample_pushes(request);
+    show_progress("");
     if (outputs.wants("--json")) outputs.put("--json", report.json);
     if (!outputs.to_stdout()) write_stdout(report.text);
     outputs.commit();

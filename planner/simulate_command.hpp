@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,7 @@ struct SampleRequest {
   std::optional<double> neighbourhood;  ///< [m]; none: a tenth of the extent of the posture
   double gravity = 0, size = 0;
   std::uint64_t runs = 0, seed = 1;
+  std::function<void(std::uint64_t)> progress = [](std::uint64_t) {};  ///< told how many runs are done, after each
 
   stability::HybridOptions options_for(const stability::HybridBody& body) const {
     stability::HybridOptions result = options;

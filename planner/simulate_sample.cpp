@@ -97,6 +97,7 @@ SampleReport sample_pushes(const SampleRequest& request) {
     ++count.outcome[static_cast<std::size_t>(run.outcome)];
     if (run.outcome == HybridRun::Outcome::rest)
       count.farthest = std::max(count.farthest, body.excursion(run.state) / body.extent());
+    request.progress(k + 1);
   }
   using gaits::TextTable;
   SampleReport report;

@@ -232,6 +232,7 @@ Covector DualCertificate::propose_breaks(const Frame<double>& frame) const {
 bool DualCertificate::surely_in_cone(const Row<double>& z) const {
   const double force = std::abs(z.p) + std::abs(z.one);
   const double error = row_error_factor * (std::abs(z.q) + 2 * line_.posture.spread() * force) + underflow_slack;
+  if (!std::isfinite(error)) return false;  // so is Z where rho^2 overflows
   for (int k = 0; k < cone_.count; ++k)
     if (!(dot(z, cone_.extreme[k]) >= error)) return false;
   return true;

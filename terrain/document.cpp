@@ -239,6 +239,8 @@ Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
+void Document::know_homes(const KeyHomes& homes) { source_->homes = &homes; }
+
 Document Document::read_file(const std::string& path, FaultList* faults) {
   return parse(read_text(path), path, faults);
 }

@@ -52,6 +52,9 @@ class FaultList {
 /// Thrown instead of InputError where only the consequence of a fault that a FaultList holds already could be said.
 struct AlreadyTold {};
 
+/// Where each key of a format belongs: a place as "inside \"robot\"", and its keys.
+using KeyHomes = std::vector<std::pair<std::string_view, std::vector<std::string_view>>>;
+
 struct Source;  // the text that nodes point into
 
 /// One value of the tree. `what` names the value in messages, as "friction" or "robot.reach".
@@ -98,8 +101,8 @@ class Node {
   const Node* find(std::string_view key) const;  ///< nullptr if absent or not a map
   /// Absent: InputError that ends in `advice`; AlreadyTold if allow_only has suggested it for a misspelt key.
   const Node& require(std::string_view key, std::string_view what, std::string_view advice = "") const;
-  /// Refuses every key that is not listed, and suggests the nearest one that is. False if there is one (and faults are
-  /// kept).
+  /// Refuses every key that is not listed, and suggests where it belongs or the nearest one that is. False if there is
+  /// one (and faults are kept).
   bool allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const;
 
  private:
@@ -112,6 +115,7 @@ class Node {
   [[noreturn]] void refuse_key(const std::vector<std::string>& keys, std::string_view what,
                                const std::pair<Node, Node>* before) const;
   std::string list_advice(std::size_t n) const;  // for messages
+  std::string_view home() const;                 // where this key belongs, if that is known
   bool is_integer() const;
   std::string_view plain_scalar(std::string_view what, std::string_view expected) const;
 
@@ -158,6 +162,8 @@ class Document {
   /// well).
   static Document parse(std::string_view text, std::string name, FaultList* faults = nullptr);
   const Node& root() const { return root_; }
+  /// Of keys that are refused it is said where they belong. `homes` must outlive the document.
+  void know_homes(const KeyHomes& homes);
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;
   ~Document();

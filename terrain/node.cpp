@@ -1,76 +1,15 @@
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 
 #include "terrain/document.hpp"
+#include "terrain/number_text.hpp"
 #include "terrain/source.hpp"
 
 namespace surefoot::terrain {
 namespace {
 
-constexpr std::size_t longest_number = 64;  // longer ones are not looked at for a unit behind them
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-std::size_t digits_at(std::string_view text, std::size_t i) {
-  std::size_t end = i;
-  while (end < text.size() && is_digit(text[end])) ++end;
-  return end - i;
-}
-
-enum class Form { not_a_number, leading_zero, integer, decimal };
-
-/// The form of an unsigned number: digits [. digits] [e [sign] digits], with digits on at least one side of the point.
-Form form_of(std::string_view text) {
-  const std::size_t whole = digits_at(text, 0);
-  std::size_t i = whole, part = 0;
-  if (i < text.size() && text[i] == '.') {
-    part = digits_at(text, i + 1);
-    i += 1 + part;
-  }
-  if (whole + part == 0) return Form::not_a_number;
-  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
-    ++i;
-    if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
-    const std::size_t exponent = digits_at(text, i);
-    if (exponent == 0) return Form::not_a_number;
-    i += exponent;
-  }
-  if (i != text.size()) return Form::not_a_number;
-  if (whole > 1 && text[0] == '0') return Form::leading_zero;
-  return i == whole ? Form::integer : Form::decimal;
-}
-
-std::string_view without_sign(std::string_view text) {
-  return text.starts_with('+') || text.starts_with('-') ? text.substr(1) : text;
-}
-
-bool is_digits(std::string_view text) { return !text.empty() && digits_at(text, 0) == text.size(); }
-
-bool is_number(std::string_view text) { return form_of(without_sign(text)) != Form::not_a_number; }
-
-/// What to write instead of a text that is no number, for the ways in which numbers are commonly written elsewhere.
-std::string number_meant_by(std::string_view text) {
-  for (const std::string_view minus : {"\u2212", "\u2013", "\u2014"}) {  // minus sign, dashes
-    if (text.starts_with(minus)) return "a plain minus sign, as in -0.25";
-  }
-  const std::size_t comma = text.find(',');
-  if (comma != std::string_view::npos && is_digits(text.substr(comma + 1)) &&
-      is_digits(without_sign(text.substr(0, comma)))) {
-    return "a point, no comma: " +
-           shown(std::string(text.substr(0, comma)) + "." + std::string(text.substr(comma + 1)));
-  }
-  std::size_t number = std::min(text.size(), longest_number);  // the longest beginning that is one
-  while (number > 0 && !is_number(text.substr(0, number))) --number;
-  const std::string_view rest = text.substr(std::min(text.find_first_not_of(' ', number), text.size()));
-  const bool unit = !rest.empty() && (std::isalpha(static_cast<unsigned char>(rest[0])) || rest[0] == '%' ||
-                                      rest.starts_with("\u00b0"));  // degrees
-  if (number == 0 || !unit || rest == "e" || rest == "E" || std::any_of(rest.begin(), rest.end(), is_digit)) {
-    return "a number such as 0.25 or 1e-3";
-  }
-  return "the number alone, without a unit (metres, kilograms, seconds)";
-}
+constexpr std::string_view true_or_false = "true or false";
 
 /// std::from_chars knows no plus sign.
 template <class Number>
@@ -144,11 +83,12 @@ void Node::refuse(std::string_view what, std::string_view expected) const {
 }
 
 std::string_view Node::plain_scalar(std::string_view what, std::string_view expected) const {
-  if (kind() == Kind::scalar && quoted_ && is_number(std::get<std::string_view>(content_))) {
-    refuse(what, std::string(expected) + ", without quotes");
-  }
-  if (kind() != Kind::scalar || quoted_) refuse(what, expected);
-  return std::get<std::string_view>(content_);
+  if (kind() != Kind::scalar) refuse(what, expected);
+  const std::string_view value = std::get<std::string_view>(content_);
+  const bool truth = value == "true" || value == "false", truth_expected = expected == true_or_false;
+  if (quoted_ && (truth_expected ? truth : is_number(value))) refuse(what, std::string(expected) + ", without quotes");
+  if (quoted_) refuse(what, expected);
+  return value;
 }
 
 double Node::number(std::string_view what) const {
@@ -156,9 +96,9 @@ double Node::number(std::string_view what) const {
   const auto fail_with = [&](const std::string& reason) {
     fail(std::string(what) + ": " + shown(text) + " " + reason);
   };
-  const Form form = form_of(without_sign(text));
-  if (form == Form::not_a_number) fail_with("is not a finite decimal number; expected " + number_meant_by(text));
-  if (form == Form::leading_zero) fail_with("has a leading zero; expected a decimal number without");
+  const NumberForm form = form_of(without_sign(text));
+  if (form == NumberForm::not_a_number) fail_with("is not a finite decimal number; expected " + number_meant_by(text));
+  if (form == NumberForm::leading_zero) fail_with("has a leading zero; expected a decimal number without");
   double value = 0;
   if (convert(text, value) != std::errc() || !std::isfinite(value)) {
     fail_with("is too large or too small for a double; expected a number such as 0.25 or 1e-3");
@@ -181,11 +121,12 @@ double Node::not_negative(std::string_view what) const {
 
 std::int64_t Node::integer(std::string_view what) const {
   const std::string_view text = plain_scalar(what, "an integer");
-  const Form form = form_of(without_sign(text));
-  if (form == Form::leading_zero) {
+  const NumberForm form = form_of(without_sign(text));
+  if (form == NumberForm::leading_zero) {
     fail(std::string(what) + ": " + shown(text) + " has a leading zero; expected an integer without");
   }
-  if (form != Form::integer) fail(std::string(what) + ": " + shown(text) + " is not an integer; expected an integer");
+  if (form != NumberForm::integer)
+    fail(std::string(what) + ": " + shown(text) + " is not an integer; expected an integer");
   std::int64_t value = 0;
   if (convert(text, value) != std::errc()) {
     fail(std::string(what) + ": " + shown(text) + " is out of range; expected an integer of at most 63 bits");
@@ -194,9 +135,9 @@ std::int64_t Node::integer(std::string_view what) const {
 }
 
 bool Node::boolean(std::string_view what) const {
-  const std::string_view text = plain_scalar(what, "true or false");
+  const std::string_view text = plain_scalar(what, true_or_false);
   if (text == "true") return true;
-  if (text != "false") refuse(what, "true or false");
+  if (text != "false") refuse(what, true_or_false);
   return false;
 }
 
@@ -207,10 +148,11 @@ std::string Node::text(std::string_view what) const {
 
 bool Node::is_integer() const {
   return kind() == Kind::scalar && !quoted_ &&
-         form_of(without_sign(std::get<std::string_view>(content_))) == Form::integer;
+         form_of(without_sign(std::get<std::string_view>(content_))) == NumberForm::integer;
 }
 
-/// Of something that is no list of n items: how it may have been meant as one.
+/// Of something that is no list of n items: how it may have been meant as one. Twice as many integers may be decimal
+/// numbers with commas.
 std::string Node::list_advice(std::size_t n) const {
   if (kind() == Kind::scalar) {
     const std::string_view text = std::get<std::string_view>(content_);
@@ -219,10 +161,14 @@ std::string Node::list_advice(std::size_t n) const {
   }
   if (kind() != Kind::sequence || n == 0 || std::get<Items>(content_).size() != 2 * n) return "";
   const Items& items = std::get<Items>(content_);
+  std::string meant;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (!items[i].is_integer() || (i % 2 == 1 && !is_digits(std::get<std::string_view>(items[i].content_)))) return "";
+    if (!items[i].is_integer()) return "";
+    const auto digits = std::get<std::string_view>(items[i].content_);
+    if (i % 2 == 1 && !is_digits(digits)) return "";
+    meant += (i == 0 ? "" : i % 2 == 1 ? "." : ", ") + std::string(digits);
   }
-  return "; the decimal point is a point, no comma";
+  return "; if [" + shown(meant) + "] is meant, the decimal point is a point, no comma";
 }
 
 const std::vector<Node>& Node::items(std::string_view what) const {
@@ -277,6 +223,13 @@ bool Node::allow_only(std::initializer_list<std::string_view> keys, std::string_
   return known;
 }
 
+std::string_view Node::home() const {
+  if (!source_ || !source_->homes) return "";
+  for (const auto& [place, keys] : *source_->homes)
+    if (std::find(keys.begin(), keys.end(), std::get<std::string_view>(content_)) != keys.end()) return place;
+  return "";
+}
+
 void Node::refuse_key(const std::vector<std::string>& keys, std::string_view what,
                       const std::pair<Node, Node>* before) const {
   const std::string_view key = std::get<std::string_view>(content_);
@@ -287,7 +240,10 @@ void Node::refuse_key(const std::vector<std::string>& keys, std::string_view wha
   }
   const std::string meant = meant_by(key, keys);
   if (!meant.empty() && key.starts_with(meant + ':')) fail(message + "a space must follow the colon");
-  if (!meant.empty()) fail(message + "did you mean \"" + meant + "\"?");
+  const std::string question = meant.empty() ? "" : "did you mean \"" + meant + "\"?";
+  if (const std::string_view place = home(); !place.empty())
+    fail(message + "it belongs " + std::string(place) + (meant.empty() ? "" : " (or " + question + ")"));
+  if (!meant.empty()) fail(message + question);
   std::string list;
   for (const std::string& allowed : keys) list += (list.empty() ? "" : ", ") + allowed;
   fail(message + "expected one of: " + list);

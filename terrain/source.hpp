@@ -15,7 +15,8 @@ struct Source {
   std::string text;               ///< without byte-order mark
   std::deque<std::string> extra;  ///< scalars that do not stand in the text as they are (escapes, folded lines)
 
-  FaultList* faults = nullptr;  ///< where faults are kept, if they are not thrown
+  FaultList* faults = nullptr;      ///< where faults are kept, if they are not thrown
+  const KeyHomes* homes = nullptr;  ///< of the format, if it has told them
 
   /// The error at a place counted from 0, its column in bytes.
   InputError error(std::size_t line, std::size_t byte_column, const std::string& message) const;

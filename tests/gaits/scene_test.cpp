@@ -155,6 +155,17 @@ TEST_CASE("unknown keys are refused at every level, where they stand", "[scene]"
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
 }
 
+TEST_CASE("of keys that stand a level too far out or in it is said where they belong", "[scene]") {
+  const Fault fault =
+      GENERATE(Fault{"  mass: 10", "mass: 10", "s.yaml:13:1: scene: unknown key \"mass\"; it belongs inside \"robot\""},
+               Fault{"seed: 7", "seed: 7, com_x: [1, 2]", "search: unknown key \"com_x\"; it belongs inside \"goal\""},
+               Fault{"terrain:\n", "terrain:\n  goal: 1\n",
+                     "terrain: unknown key \"goal\"; it belongs at the top level"},
+               Fault{"nu: 0.03", "nu: 0.03, restitution: 0.1",
+                     "disturbance: unknown key \"restitution\"; it belongs inside \"stability\""});
+  CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::Contains(fault.error));
+}
+
 TEST_CASE("what is required is missed", "[scene]") {
   const Fault fault = GENERATE(
       Fault{"surefoot: 1\n", "", "s.yaml:1:1: scene: \"surefoot\" is missing; add \"surefoot: 1\" as the first line"},

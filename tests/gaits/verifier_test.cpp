@@ -158,6 +158,41 @@ TEST_CASE("feet stand where the scene lets them, and where the plan says", "[ver
   }
 }
 
+TEST_CASE("what has moved the terrain away from feet is told, and these are not judged", "[verifier]") {
+  const Plan plan = plan_by_hand(scene_on(level_ground_and()));  // on a chain from (-5, 0) to (5, 0)
+  SECTION("a chain that begins elsewhere") {
+    const double by = GENERATE(-0.75, 2.5);
+    const auto found = verify(scene_on({chain({{-5 - by, 0}, {5, 0}})}), plan);
+    REQUIRE(found.faults.size() == 1);
+    const std::string words = std::string("begins ") + (by > 0 ? "2.5 m earlier" : "0.75 m later");
+    require_only(found, Rule::foothold, "plan", words);
+    require_only(found, Rule::foothold, "plan", "4 footholds lie on the ground where the plan says");
+    CHECK(found.stances_with_lost_feet == 3);
+    CHECK(found.transfers_with_lost_feet == 2);
+  }
+  SECTION("another chain before it") {
+    Scene scene = scene_on({chain({{-9, -9}, {-8, -9}}), chain({{-5, 0}, {5, 0}})});
+    scene.start.feet = {scene.terrain.foothold_at(1, 4.8), scene.terrain.foothold_at(1, 5.2), std::nullopt};
+    const auto found = verify(scene, plan);
+    REQUIRE(found.faults.size() == 1);
+    require_only(found, Rule::foothold, "plan", "what the plan calls chain 0 is chain 1 now");
+  }
+  SECTION("a detour before the later feet: the others are judged") {
+    const auto found = verify(scene_on({chain({{-5, 0}, {0.3, 0}, {0.35, -0.5}, {0.4, 0}, {5, 0}})}), plan);
+    REQUIRE(found.faults.size() == 1);
+    require_only(found, Rule::foothold, "plan", "or is that much longer before these feet");
+    require_only(found, Rule::foothold, "plan", "2 footholds lie on the ground");
+    CHECK(found.stances_with_lost_feet == 2);
+    CHECK(found.transfers_with_lost_feet == 2);
+  }
+  SECTION("ground that went down: each foot is named") {
+    const auto found = verify(scene_on({chain({{-5, -0.5}, {5, -0.5}})}), plan);
+    CHECK(found.faults.size() == 8);  // 3 stances of 2 feet, 2 footholds
+    require_only(found, Rule::foothold, "stance 1", "foot 1 is said to stand at");
+    CHECK(found.stances_with_lost_feet == 3);
+  }
+}
+
 TEST_CASE("the goal is reached by the last stance", "[verifier]") {
   Scene scene = scene_on(level_ground_and());
   const Plan plan = plan_by_hand(scene);

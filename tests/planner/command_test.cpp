@@ -153,22 +153,37 @@ TEST_CASE("Names that promise another kind of file are refused before anything i
   CHECK_THAT(place.run("plan picture.svg").err, Catch::Contains("picture.svg:1:1: this is a picture or a page"));
 }
 
-TEST_CASE("Feet that have lost their ground are told once each", "[command]") {
+TEST_CASE("Feet that have lost their ground are told once each, and nothing that only follows", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  REQUIRE(place.run("plan scene.yaml --effort 0 -o plan.json").status == 0);
+  place.write("lower.yaml", with("[[-1, 0], [4, 0]]", "[[-1, -0.5], [4, -0.5]]"));
+  const auto run = place.run("check lower.yaml plan.json");
+  CHECK(run.status == 1);
+  std::istringstream lines(run.out);
+  std::vector<std::string> said;
+  for (std::string line; std::getline(lines, line);) {
+    CHECK((line.find(": foothold: ") != std::string::npos || line.starts_with("does not hold: ")));
+    if (const auto at = line.find("is said to stand at"); at != std::string::npos)
+      said.push_back(line.substr(line.find("foot "), line.find(" (and so") - line.find("foot ")));
+  }
+  std::sort(said.begin(), said.end());
+  CHECK(said.size() > 2);
+  CHECK(std::adjacent_find(said.begin(), said.end()) == said.end());
+  CHECK_THAT(run.out, Catch::Contains("more places)"));
+  CHECK_THAT(run.out, Catch::Contains("not judged, as feet are not where the plan says: "));
+}
+
+TEST_CASE("A chain that begins elsewhere than when the plan was made is named, not all feet on it", "[command]") {
   const Workplace place;
   place.write("scene.yaml", scene);
   REQUIRE(place.run("plan scene.yaml --effort 0 -o plan.json").status == 0);
   place.write("longer.yaml", with("[[-1, 0]", "[[-2, 0]"));  // arc lengths count from the first vertex
   const auto run = place.run("check longer.yaml plan.json");
   CHECK(run.status == 1);
-  std::istringstream lines(run.out);
-  std::vector<std::string> said;
-  for (std::string line; std::getline(lines, line);)
-    if (const auto at = line.find("is said to stand at"); at != std::string::npos)
-      said.push_back(line.substr(line.find("foot "), line.find(" (and so") - line.find("foot ")));
-  std::sort(said.begin(), said.end());
-  CHECK(said.size() > 2);
-  CHECK(std::adjacent_find(said.begin(), said.end()) == said.end());
-  CHECK_THAT(run.out, Catch::Contains("more places)"));
+  CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 2);
+  CHECK_THAT(run.out, Catch::StartsWith("plan: foothold: chain 0 begins 1 m earlier than when the plan was made"));
+  CHECK_THAT(run.out, Catch::Contains("\ndoes not hold: 1 fault; not judged"));
 }
 
 TEST_CASE("Where the scene has become safer only what the plan states is wrong, and check says so", "[command]") {

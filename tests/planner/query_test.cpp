@@ -139,6 +139,8 @@ TEST_CASE("What is not a proper question is refused with its place", "[query]") 
   CHECK_THAT(fault(""), Contains("empty line"));
   CHECK_THAT(fault("  \r"), Contains("empty line"));
   CHECK_THAT(fault("{"), Contains("not JSON"));
+  CHECK_THAT(fault(flat.substr(0, flat.size() / 2)), Catch::EndsWith(" (a question stands on one line)"));
+  CHECK_THAT(fault(flat + " x"), !Contains("on one line"));
   CHECK_THAT(fault("[1]"), Contains("JSON object"));
   CHECK_THAT(fault("12"), Contains("JSON object"));
   CHECK_THAT(fault(flat + " x"), Contains("not JSON"));

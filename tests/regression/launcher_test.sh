@@ -205,6 +205,14 @@ expect "test builds the program too" nothing_called
 run test --sanitize
 expect "sanitizers have a build of their own" called "cmake --preset debug"
 touch "$tree/CMakeLists.txt"
+: >"$calls"
+(cd "$work" && FAKE_SECONDS=2 PATH="$fakes:$PATH" exec "$tree/surefoot" test) >/dev/null 2>&1 </dev/null &
+for ((i = 0; i < 200; ++i)); do [[ $(grep -c -- "cmake --build" "$calls") -eq 2 ]] && break || sleep 0.05; done
+(cd "$work" && PATH="$fakes:$PATH" exec "$tree/surefoot" plan x) >"$work/out" 2>"$work/err" </dev/null
+expect "while the tests are built the program, which comes first, runs" prints "[$work][plan][x]"
+expect "and waits for nothing" eval '! says "waiting for another build"'
+wait
+touch "$tree/CMakeLists.txt"
 run plan x
 expect "the tests stay configured" called "SUREFOOT_TESTS=ON"
 

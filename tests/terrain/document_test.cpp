@@ -161,9 +161,9 @@ TEST_CASE("a number in the dress of another convention is told how to be written
 
 TEST_CASE("a comma for a point is found where it parts a list or a map", "[document]") {
   const auto items = [](const std::string& text) { return error_of([&] { parse(text).root().items("x", 2); }); };
-  CHECK(
-      items("[0,25, 0,9]") ==
-      "f.yaml:1:1: x: a list of 4 items is given; expected a list of 2 items; the decimal point is a point, no comma");
+  CHECK(items("[-0,25, 0,9]") ==
+        "f.yaml:1:1: x: a list of 4 items is given; expected a list of 2 items; if [-0.25, 0.9] is meant, the decimal "
+        "point is a point, no comma");
   for (const std::string text : {"[0.25, 1, 0, 9]", "[1, -2, 3, 4]", "[1, 2, 3]"}) {
     CAPTURE(text);
     CHECK_THAT(items(text), Catch::EndsWith("expected a list of 2 items"));
@@ -294,6 +294,7 @@ TEST_CASE("bounds, integers, booleans and texts say what they expect", "[documen
   CHECK(error_of([&] { at("zero").positive("robot.mass"); }) ==
         "f.yaml:1:19: robot.mass: 0 is not positive; expected a number > 0");
   CHECK_FALSE(std::signbit(at("minus").not_negative("x")));
+  CHECK_THAT(error_of([] { parse("'1'").root().boolean("x"); }), Catch::EndsWith("expected true or false"));
   CHECK(at("least").integer("x") == std::numeric_limits<std::int64_t>::min());
   CHECK(error_of([&] { at("big").integer("seed"); }) ==
         "f.yaml:1:40: seed: 9223372036854775808 is out of range; expected an integer of at most 63 bits");
@@ -305,7 +306,8 @@ TEST_CASE("bounds, integers, booleans and texts say what they expect", "[documen
   CHECK_FALSE(at("f").boolean("x"));
   CHECK(tail(error_of([&] { at("yes").boolean("x"); })) == "x: yes is given; expected true or false");
   CHECK(tail(error_of([&] { at("True").boolean("x"); })) == "x: True is given; expected true or false");
-  CHECK(tail(error_of([&] { at("quoted").boolean("x"); })) == "x: \"true\" is a text; expected true or false");
+  CHECK(tail(error_of([&] { at("quoted").boolean("x"); })) ==
+        "x: \"true\" is a text; expected true or false, without quotes");
   CHECK(at("name").text("x") == "caf\u00e9");
   CHECK(at("n").text("x") == "12");
   CHECK(at("n").where() == "f.yaml:1:193");  // columns count characters, not bytes
@@ -363,6 +365,19 @@ TEST_CASE("unknown keys are refused with the nearest known one", "[document]") {
         "f.yaml:2:1: terrain: unknown key \"fricton\"; did you mean \"friction\"?");
   CHECK(refuse("{speed: 1}") == "f.yaml:1:2: terrain: unknown key \"speed\"; expected one of: friction, chains");
   CHECK(refuse("{friction:1}") == "f.yaml:1:2: terrain: unknown key \"friction:1\"; a space must follow the colon");
+  CHECK(refuse("{reach: 1}") == "f.yaml:1:2: terrain: unknown key \"reach\"; expected one of: friction, chains");
+  static const KeyHomes homes{{"inside \"robot\"", {"reach", "chain"}}};
+  const auto at_home = [](const std::string& text) {
+    return error_of([&] {
+      Document document = parse(text);
+      document.know_homes(homes);
+      document.root().allow_only({"friction", "chains"}, "terrain");
+    });
+  };
+  CHECK(at_home("{reach: 1}") == "f.yaml:1:2: terrain: unknown key \"reach\"; it belongs inside \"robot\"");
+  CHECK(at_home("{chain: 1}") ==
+        "f.yaml:1:2: terrain: unknown key \"chain\"; it belongs inside \"robot\" (or did you mean \"chains\"?)");
+  CHECK(at_home("{speed: 1}") == "f.yaml:1:2: terrain: unknown key \"speed\"; expected one of: friction, chains");
   CHECK(refuse("[1]") == "f.yaml:1:1: terrain: a list of 1 item is given; expected a map (key: value)");
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "gaits/plan_heading.hpp"
 #include "gaits/plan_io.hpp"
 #include "gaits/plan_page.hpp"
 #include "gaits/plan_words.hpp"
@@ -18,27 +19,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Okabe and Ito's palette, told apart by colour-blind eyes.
-constexpr std::array<std::string_view, leg_count> leg_colour{"#0072b2", "#d55e00", "#009e73"};
-constexpr std::string_view support_colour = "#cc79a7", goal_colour = "#f0e442", weak_colour = "#e69f00", ink = "#222",
-                           faint = "#666", alarm = "#c00";
 constexpr Paint support_fill{.fill = support_colour, .opacity = 0.1};
-constexpr Paint support_edge{.stroke = support_colour, .width = 0.8, .opacity = 0.45};
-constexpr Paint com_line{.stroke = ink, .width = 1.6};
-constexpr Paint com_dot{.fill = "#fff", .stroke = ink, .width = 1.4};
-constexpr Paint weak_line{.stroke = weak_colour, .width = 7};
-constexpr double dot_radius = 3.2, badge_radius = 6.5;  // [px]
-constexpr double top = 116;                             // [px] title and legend
 
 Paint leg_paint(int leg) { return {.stroke = leg_colour[leg], .width = 1.2, .opacity = 0.6}; }
-
-/// At most so many bytes, whole characters (UTF-8).
-std::string cut(std::string words, double room) {
-  auto most = static_cast<std::size_t>(std::max(room, 3.0)) - 3;
-  if (words.size() <= most + 3) return words;
-  while (most > 0 && (static_cast<unsigned char>(words[most]) & 0xc0) == 0x80) --most;
-  return words.substr(0, most) + "...";
-}
 
 /// Keeps labels apart: a place is free if no other has been taken within `distance` pixels.
 class Places {
@@ -58,83 +41,26 @@ class PlanPicture {
  public:
   PlanPicture(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults)
       : scene_(scene), plan_(plan), faults_(faults), terrain_(scene.terrain), weakest_(weakest_place(plan)),
-        page_(lay_out(scene, plan, top)), canvas_(page_.width, page_.height, title_of(plan, !faults.empty())) {}
+        page_(lay_out(scene, plan, heading_height)),
+        canvas_(page_.width, page_.height, title_of(plan, !faults.empty())) {}
 
   std::string draw() {
-    heading();
-    legend();
+    draw_heading(canvas_, page_, plan_, faults_, weakest_, terrain_);
     for (std::size_t k = 0; k < page_.rows.size(); ++k) draw_row(page_.rows[k], fmt::format("row{}", k + 1));
     return canvas_.finish();
   }
 
  private:
-  bool has_weakest() const { return weakest_.index >= 0 && !std::isinf(weakest_.sigma); }
-
-  std::string subtitle() const {
-    if (!faults_.empty())
-      return fmt::format("REFUSED by the verifier, {} fault{}: {}", faults_.size(), faults_.size() == 1 ? "" : "s",
-                         faults_.front());
-    if (!plan_.reason.empty()) return plan_.reason;
-    if (!has_weakest() || weakest_.limit.empty()) return "";
-    const Stance& stance = plan_.stances[weakest_.index];
-    const Feet feet = weakest_.in_transfer ? feet_during(stance, plan_.transfers[weakest_.index]) : stance.feet;
-    return fmt::format("least in {} ({}: {})", place_in_words(weakest_, plan_.steps()), weakest_.limit,
-                       limit_in_words(weakest_.limit, planted_legs(feet)));
-  }
-
-  void heading() {
-    canvas_.text({30, 36}, title_of(plan_, !faults_.empty()), {.size = 20, .bold = true});
-    canvas_.text({30, 58}, cut(subtitle(), (page_.width - 60) / (faults_.empty() ? 6.9 : 7.7)),
-                 {.size = 13, .colour = faults_.empty() ? faint : alarm, .bold = !faults_.empty()});
-    const double metres = round_length(160 / page_.scale);
-    const double left = page_.width - 30 - metres * page_.scale, right = page_.width - 30;
-    canvas_.line({left, 40}, {right, 40}, com_line);
-    for (const double x : {left, right}) canvas_.line({x, 36}, {x, 44}, com_line);
-    canvas_.text({(left + right) / 2, 32}, fmt::format("{:g} m", metres), {.anchor = "middle"});
-  }
-
-  /// Entries flow over at most two lines; widths are estimates, the font is the viewer's.
-  void legend() {
-    double x = 30, y = 82;
-    const auto entry = [&](const std::string& words, auto&& symbol) {
-      const double width = 44 + 6.9 * static_cast<double>(words.size());
-      if (x + width > page_.width - 30 && x > 30) x = 30, y += 20;
-      symbol(Vector2d(x, y));
-      canvas_.text({x + 28, y + 4}, words);
-      x += width;
-    };
-    const Vector2d across(22, 0), middle(11, 0);
-    for (int leg = 0; leg < leg_count; ++leg)
-      entry(fmt::format("leg {}", leg + 1), [&](const Vector2d& at) { badge(at + middle, leg); });
-    entry("COM by step", [&](const Vector2d& at) {
-      canvas_.line(at, at + across, com_line);
-      canvas_.circle(at + middle, dot_radius, com_dot);
-    });
-    if (has_weakest())
-      entry("least safety factor", [&](const Vector2d& at) { canvas_.line(at, at + across, weak_line); });
-    const auto box = [&](const Vector2d& at, const Paint& paint) {
-      canvas_.rectangle(at - Vector2d(0, 6), 22, 12, paint);
-    };
-    entry("R_SS(W): COMs in balance", [&](const Vector2d& at) {
-      box(at, {.fill = support_colour, .opacity = 0.25});
-      box(at, support_edge);
-    });
-    entry("goal", [&](const Vector2d& at) { box(at, {.fill = goal_colour, .opacity = 0.45}); });
-    for (const auto& key : terrain_.legend())
-      entry(key.label, [&](const Vector2d& at) {
-        canvas_.line(at, at + across, key.paint);
-        if (key.overlay) canvas_.line(at, at + across, *key.overlay);
-      });
-  }
-
   void draw_row(const PageRow& row, const std::string& clip_id) {
     const Vector2d corner = row.view({row.window.min().x(), row.window.max().y()});
     const Vector2d size = row.window.sizes() * page_.scale;
     canvas_.define_clip(clip_id, corner, size.x(), size.y());
     canvas_.open_group("row", clip_id);
-    goal(row);
+    const Eigen::AlignedBox2d goal = goal_in(row);
+    if (!goal.isEmpty()) draw_goal(row, goal);
     for (const int k : row.stances) support(row, k);
     terrain_.draw_ground(canvas_, row.view, row.window);
+    if (!goal.isEmpty()) label_goal(row, goal);
     for (const int k : row.stances) stance(row, k);
     com_path(row);
     terrain_.draw_surface(canvas_, row.view, row.window);
@@ -146,18 +72,25 @@ class PlanPicture {
     axis(row);
   }
 
-  void goal(const PageRow& row) {
+  /// The part of the goal [m] that a row shows.
+  Eigen::AlignedBox2d goal_in(const PageRow& row) const {
     Eigen::AlignedBox2d box = row.window;
     if (const auto& x = scene_.goal.com_x) box.min().x() = x->first, box.max().x() = x->second;
     if (const auto& y = scene_.goal.com_y) box.min().y() = y->first, box.max().y() = y->second;
-    const Eigen::AlignedBox2d shown = box.intersection(row.window);
-    if (shown.isEmpty()) return;
-    const Vector2d corner = row.view({shown.min().x(), shown.max().y()});
-    const Vector2d size = shown.sizes() * page_.scale;
+    return box.intersection(row.window);
+  }
+
+  void draw_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
+    const Vector2d size = goal.sizes() * page_.scale;
     constexpr double thinnest = 2;  // [px] a goal may be a single abscissa
-    canvas_.rectangle(corner, std::max(size.x(), thinnest), std::max(size.y(), thinnest),
-                      {.fill = goal_colour, .opacity = 0.3});
-    canvas_.text(corner + Vector2d(size.x() / 2, 15), "goal", {.colour = "#6b6400", .anchor = "middle", .bold = true});
+    canvas_.rectangle(row.view({goal.min().x(), goal.max().y()}), std::max(size.x(), thinnest),
+                      std::max(size.y(), thinnest), {.fill = goal_colour, .opacity = 0.3});
+  }
+
+  /// Solid ground may hide the upper end of the goal, but not its name.
+  void label_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
+    canvas_.text(row.view({goal.center().x(), goal.max().y()}) + Vector2d(0, 15), "goal",
+                 {.colour = "#6b6400", .anchor = "middle", .bold = true});
   }
 
   /// Where the COM can be: within reach of every planted foot (as a polygon of 32 corners for each).
@@ -206,15 +139,9 @@ class PlanPicture {
       for (int k = 0; k + 1 < count; ++k) {
         const Vector2d &from = plan_.stances[k].com, &to = plan_.stances[k + 1].com;
         const bool here = &page_.rows[page_.row_of(from.x())] == &row || &page_.rows[page_.row_of(to.x())] == &row;
-        const bool is_weakest = has_weakest() && weakest_.in_transfer && weakest_.index == k;
+        const bool is_weakest = weakest_.bounded() && weakest_.in_transfer && weakest_.index == k;
         if (here && (!weak || is_weakest)) canvas_.line(row.view(from), row.view(to), weak ? weak_line : com_line);
       }
-  }
-
-  void badge(const Vector2d& at, int leg) {
-    canvas_.circle(at, badge_radius, {.fill = leg_colour[leg]});
-    canvas_.text(at + Vector2d(0, 3.2), std::to_string(leg + 1),
-                 {.size = 9, .colour = "#fff", .anchor = "middle", .bold = true});
   }
 
   /// A dot where a foot stands, and the number of the leg in the solid ground beneath; numbers that meet give way
@@ -230,7 +157,7 @@ class PlanPicture {
     for (int k = 0; k < tries; ++k) {
       const Vector2d beneath = at + inwards * (badge_radius + 5 + k * (2 * badge_radius + 1));
       if (!places.take(beneath, 2 * badge_radius)) continue;
-      badge(beneath, leg);
+      draw_badge(canvas_, beneath, leg);
       return;
     }
   }
@@ -264,7 +191,7 @@ class PlanPicture {
   void waypoints(const PageRow& row, Places& places) {
     for (const int k : row.stances) {
       const Vector2d at = row.view(plan_.stances[k].com);
-      const bool is_weakest = has_weakest() && !weakest_.in_transfer && weakest_.index == k;
+      const bool is_weakest = weakest_.bounded() && !weakest_.in_transfer && weakest_.index == k;
       if (is_weakest) canvas_.circle(at, dot_radius + 4, {.fill = weak_colour});
       canvas_.circle(at, dot_radius, com_dot, tooltip(k));
       const Vector2d above = at - Vector2d(0, 8);

@@ -1,6 +1,7 @@
 // Words and numbers for people about plans, shared by the table, the picture and whatever else explains a plan.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct WeakestPlace {
   bool in_transfer = false;
   int index = -1;  ///< of the stance or transfer; -1 in a plan without stances
   std::string limit;
+  bool bounded() const { return index >= 0 && !std::isinf(sigma); }  ///< it exists and limits something
 };
 WeakestPlace weakest_place(const Plan& plan);
 /// "the transfer of step 3", "the last stance".

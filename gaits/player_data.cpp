@@ -1,7 +1,6 @@
 #include "gaits/player_data.hpp"
 
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "gaits/plan_page.hpp"
@@ -86,7 +85,7 @@ class PlayerData {
 
   Tree weakest() const {
     const WeakestPlace place = weakest_place(plan_);
-    if (place.index < 0 || std::isinf(place.sigma)) return nullptr;
+    if (!place.bounded()) return nullptr;
     return {{"index", place.index},
             {"in_transfer", place.in_transfer},
             {"factor", factor_in_words(place.sigma)},

@@ -155,6 +155,7 @@ bool refine_window(const Scene& scene, Plan& plan, const Timeline& timeline, int
 Plan refine_unverified(const Scene& scene, const Plan& plan, const RefineOptions& options) {
   if (plan.status != gaits::Status::solved || plan.stances.empty()) return plan;
   stability::require(plan.stances.size() == plan.transfers.size() + 1, "plan: expected one stance more than transfers");
+  stability::require(options.window >= 1, "window: expected at least one COM");
   Plan out = plan;
   Factors factors = factors_of(scene, plan);
   out.safety_factor_before_refinement = factors.least;

@@ -29,7 +29,7 @@ struct RefineOptions {
 };
 
 /// A plan that is not solved comes back as it is. Never throws on a plan that holds;
-/// std::invalid_argument for one that has not one stance more than transfers.
+/// std::invalid_argument for one that has not one stance more than transfers, and for windows of no COM.
 gaits::Plan refine(const gaits::Scene& scene, const gaits::Plan& plan, const RefineOptions& options = {});
 /// The same without the last look of the verifier: for callers that verify what they get, and fall back on `plan`.
 gaits::Plan refine_unverified(const gaits::Scene& scene, const gaits::Plan& plan, const RefineOptions& options = {});

@@ -191,3 +191,14 @@ TEST_CASE("A plan that is not solved comes back as it is", "[refine]") {
   CHECK(same.reason == "limit reached");
   CHECK_FALSE(same.safety_factor_before_refinement);
 }
+
+TEST_CASE("What cannot be refined is refused with words", "[refine][misuse]") {
+  const auto scene = level_scene(start + "}\ngoal: {com_x: [0.1, 0.8]}\n");
+  gaits::Plan plan = one_step(scene, {0, 0.4}, {0.2, 0.4});
+  plan.stances.pop_back();
+  CHECK_THROWS_WITH(planner::refine(scene, plan), Catch::Contains("one stance more than transfers"));
+  plan = one_step(scene, {0, 0.4}, {0.2, 0.4});
+  planner::RefineOptions options;
+  options.window = 0;
+  CHECK_THROWS_WITH(planner::refine(scene, plan, options), Catch::Contains("window"));
+}

@@ -3,6 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "gaits/verifier.hpp"
 #include "planner/problem.hpp"
@@ -248,8 +251,26 @@ TEST_CASE("a goal beyond a gap wider than two legs is not found: what was refuse
   CHECK(proven.reason == "between x = 0.8 and 3: no support pair within reach 0.9 spans the gap of 2.2 m");
 }
 
-TEST_CASE("an unknown planner is refused", "[search]") {
-  CHECK_THROWS_AS(run(flat_scene(), "PRM"), std::invalid_argument);
+TEST_CASE("options that mean nothing are refused with words", "[search][misuse]") {
+  const auto refused = [](const auto& spoil) {
+    planner::SearchOptions options;
+    spoil(options);
+    try {
+      planner::search(flat_scene(), options);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("not refused");
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  CHECK(refused([](auto& options) { options.planner = "PRM"; }) == "unknown planner 'PRM'");
+  CHECK(refused([](auto& options) { options.objective = "speed"; }) == "unknown objective 'speed'");
+  CHECK(refused([](auto& options) { options.seed = 0; }) == "seed: out of range");
+  CHECK(refused([](auto& options) { options.seed = gaits::greatest_seed + 1u; }) == "seed: out of range");
+  for (const double effort : {-1e-9, none})
+    CHECK_THAT(refused([&](auto& options) { options.effort = effort; }), Catch::Contains("effort >= 0"));
+  CHECK_THAT(refused([&](auto& options) { options.time_limit = none; }), Catch::Contains("a time limit"));
+  CHECK(refused([](auto& options) { options.time_limit = -1; }) == "not refused");  // over before it began
 }
 
 TEST_CASE("every proposal that is called legal obeys the rules, asked one by one", "[search]") {

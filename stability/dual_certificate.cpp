@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "stability/cover_conditions.hpp"
 #include "stability/guard.hpp"
@@ -116,7 +117,7 @@ Row<double> about_com(const Row<double>& twist, const Vec2<double>& r) {
 }  // namespace
 
 LoadedEdges::LoadedEdges(const ModeSpec& spec) {
-  const auto add = [&](signed char contact, int edge) { at[count++] = {contact, static_cast<signed char>(edge)}; };
+  const auto add = [&](std::int8_t contact, int edge) { at[count++] = {contact, static_cast<std::int8_t>(edge)}; };
   if (spec.kind == Kind::all_break) return;
   if (spec.kind == Kind::roll) {
     add(spec.i, edge_u), add(spec.i, edge_w);
@@ -242,7 +243,7 @@ namespace {
 
 template <class K>
 Row<K> covector_about_contact(const Posture& posture, const ModeSpec& spec, const Covector& covector) {
-  const Row<K> given{K(covector.z.p), K(covector.z.one), K(covector.z.q)};
+  Row<K> given{K(covector.z.p), K(covector.z.one), K(covector.z.q)};
   if (spec.kind != Kind::all_break) return given;
   Row<K> sum{K(0), K(0), K(0)};
   const std::array<K, 3> y{given.p, given.one, given.q};

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "stability/guard.hpp"
 #include "stability/posture.hpp"
@@ -39,7 +40,7 @@ struct TwistCone {
 /// The cone edges along which a mode has forces.
 struct LoadedEdges {
   struct At {
-    signed char contact, edge;
+    std::int8_t contact, edge;
   };
   std::array<At, 2> at;
   int count = 0;

@@ -36,7 +36,7 @@ double radius_of_mode(const Frame<Poly2>& frame, const ModeSpec& spec) {
 /// by at most |gradient| r + |n_1| |n_2| r^2.
 double radius_of_clattering(const Frame<Poly2>& frame, double threshold) {
   const Poly2 x = normal_product(frame, 0, 1);
-  double root[2], size[2];
+  double root[2] = {}, size[2] = {};
   for (int i : {0, 1}) {
     root[i] = std::sqrt(normal_product(frame, i, i).c);
     size[i] = std::hypot(frame.at[i].n.x, frame.at[i].n.y);

@@ -200,6 +200,7 @@ class Run {
   /// Balance by friction where the body stands now, exactly for the doubles of that place.
   bool balanced() const {
     std::vector<Contact> contacts;
+    contacts.reserve(static_cast<std::size_t>(body_.contacts()));
     for (int i = 0; i < body_.contacts(); ++i)
       contacts.push_back({body_.point(state_, i), body_.normal(i), body_.friction(i)});
     const Posture posture(contacts, body_.rho(), Posture::Modes::deferred);

@@ -34,7 +34,7 @@ Vec2<double> scaled_normal(const Eigen::Vector2d& n) {
 
 Posture::Posture(std::span<const Contact> contacts, double radius_of_gyration, Modes modes)
     : count_(static_cast<int>(contacts.size())), rho_(radius_of_gyration), rho2_(rho_ * rho_) {
-  require(contacts.size() >= 1 && contacts.size() <= 3, "contacts: expected 1 to 3");
+  require(!contacts.empty() && contacts.size() <= 3, "contacts: expected 1 to 3");
   assert(std::isfinite(rho_) && rho_ > 0 && "radius of gyration must be positive");
   for (int i = 0; i < count_; ++i) {
     const Contact& c = contacts[i];

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "stability/contact.hpp"
@@ -15,7 +16,7 @@ namespace surefoot::stability {
 /// inner normal z about contact 1's position. z = sign * (ray a x ray b).
 struct Facet {
   Row<double> z;
-  signed char a, b, sign;
+  std::int8_t a, b, sign;
 };
 
 inline Vec2<Dyadic> exactly(const Vec2<double>& v) { return {v.x, v.y}; }
@@ -92,8 +93,8 @@ class Posture {
   std::array<Facet, 15> facets_;
   std::array<ModeSpec, most_modes>
       modes_;  // the first mode_count_ of them; likewise facets_: the rest is left uninitialised
-  std::array<std::array<signed char, 3>, 3> turn_sign_{};
-  signed char triple_sign_ = 0;  // of N_3 . (N_1 x N_2)
+  std::array<std::array<std::int8_t, 3>, 3> turn_sign_{};
+  std::int8_t triple_sign_ = 0;  // of N_3 . (N_1 x N_2)
 };
 
 template <>

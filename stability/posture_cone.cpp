@@ -40,7 +40,7 @@ int Posture::exact_side(int a, int b, int c) const {
   // Parallel forces span a plane whatever their lines of action: flat ground, parallel treads.
   if (same_direction(a, b) && same_direction(b, c)) return 0;
   ++decisions.signs_exactly;
-  const Row<Dyadic> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
+  const Row<Dyadic> exact = exact_facet({{}, static_cast<std::int8_t>(a), static_cast<std::int8_t>(b), 1});
   const int i = c / 2;
   return dot(exact, ray_about<Dyadic>(offset<Dyadic>(0, i), normal<Dyadic>(i), Dyadic(friction_[i]), c % 2)).sign();
 }
@@ -53,7 +53,7 @@ bool Posture::parallel(int a, int b) const {
     return false;
   if constexpr (!guarded) return true;
   ++decisions.signs_exactly;
-  const Row<Dyadic> exact = exact_facet({{}, static_cast<signed char>(a), static_cast<signed char>(b), 1});
+  const Row<Dyadic> exact = exact_facet({{}, static_cast<std::int8_t>(a), static_cast<std::int8_t>(b), 1});
   return exact.p.is_zero() && exact.one.is_zero() && exact.q.is_zero();
 }
 
@@ -74,13 +74,13 @@ namespace {
 constexpr unsigned pair_bit(int a, int b) { return 1u << (b * (b - 1) / 2 + a); }
 
 struct RayPair {
-  signed char a, b;
+  std::int8_t a, b;
 };
 constexpr auto ray_pairs = [] {
   std::array<RayPair, 15> pairs{};
   int count = 0;
-  for (signed char b = 1; b < 6; ++b)
-    for (signed char a = 0; a < b; ++a) pairs[count++] = {a, b};
+  for (std::int8_t b = 1; b < 6; ++b)
+    for (std::int8_t a = 0; a < b; ++a) pairs[count++] = {a, b};
   return pairs;
 }();
 

@@ -64,7 +64,7 @@ void Posture::list_modes() {
     for (int l = 0; l < count_; ++l)
       if (l != i)
         turn_sign_[i][l] =
-            static_cast<signed char>(opening_sign(position_[i], position_[l], normal_[l], given_normal_[l]));
+            static_cast<std::int8_t>(opening_sign(position_[i], position_[l], normal_[l], given_normal_[l]));
   if (count_ == 3) find_triple_sign();
   add_mode(ModeSpec::Kind::all_break);
   for (int i = 0; i < count_; ++i) add_roll(i);
@@ -83,8 +83,8 @@ void Posture::add_roll(int i) {
     if (opening != 0) sense = opening;
   }
   ModeSpec& spec = add_mode(ModeSpec::Kind::roll);
-  spec.i = static_cast<signed char>(i);
-  spec.sense = static_cast<signed char>(sense);
+  spec.i = static_cast<std::int8_t>(i);
+  spec.sense = static_cast<std::int8_t>(sense);
 }
 
 /// The sign of n_i x n_j.
@@ -123,8 +123,8 @@ void Posture::list_slides(int i) {
   for (const int sigma : {1, -1}) {
     if (!(sigma > 0 ? along : against)) continue;
     ModeSpec& spec = add_mode(ModeSpec::Kind::slide);
-    spec.i = static_cast<signed char>(i);
-    spec.sigma_i = static_cast<signed char>(sigma);
+    spec.i = static_cast<std::int8_t>(i);
+    spec.sigma_i = static_cast<std::int8_t>(sigma);
     spec.row_vanishes = vanishes;
   }
 }
@@ -136,7 +136,7 @@ void Posture::find_triple_sign() {
   const double value = opening_of_slide(offset<double>(0, 1), offset<double>(0, 2), normal_[0], normal_[1], normal_[2]);
   // Two products of cross products (3 u of the spread from contact 1 and 2 u of 2): 8 u of 4 spread.
   const double bound = 128 * unit_roundoff * spread_ + underflow_slack;
-  triple_sign_ = static_cast<signed char>(certain_sign(value, bound, [&] {
+  triple_sign_ = static_cast<std::int8_t>(certain_sign(value, bound, [&] {
     return opening_of_slide(offset<Dyadic>(0, 1), offset<Dyadic>(0, 2), normal<Dyadic>(0), normal<Dyadic>(1),
                             normal<Dyadic>(2));
   }));
@@ -169,11 +169,11 @@ void Posture::list_two_slides(int i, int j) {
       }
       if (!possible) continue;
       ModeSpec& spec = add_mode(ModeSpec::Kind::two_slides);
-      spec.i = static_cast<signed char>(i);
-      spec.j = static_cast<signed char>(j);
-      spec.sigma_i = static_cast<signed char>(sigma_i);
-      spec.sigma_j = static_cast<signed char>(sigma_j);
-      spec.sense = static_cast<signed char>(sense);
+      spec.i = static_cast<std::int8_t>(i);
+      spec.j = static_cast<std::int8_t>(j);
+      spec.sigma_i = static_cast<std::int8_t>(sigma_i);
+      spec.sigma_j = static_cast<std::int8_t>(sigma_j);
+      spec.sense = static_cast<std::int8_t>(sense);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "stability/region_cells.hpp"
@@ -83,7 +84,7 @@ class Finish {
   void boundaries(const SweepCells& found, const LabelledPolygon& polygon) {
     for (std::size_t k = 0; k < polygon.corner.size(); ++k)
       region_.boundaries.push_back({polygon.label[k],
-                                    {CurveId::edge, -1, static_cast<signed char>(k), -1, -1, 0},
+                                    {CurveId::edge, -1, static_cast<std::int8_t>(k), -1, -1, 0},
                                     {polygon.corner[k], polygon.corner[(k + 1) % polygon.corner.size()]}});
     for (const SweepCurve& curve : found.curves)
       region_.boundaries.push_back(

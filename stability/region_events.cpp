@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace surefoot::stability {
 
@@ -71,7 +72,7 @@ double Sweep::event(double a, const SweepLine& at_a, double b, const SweepLine& 
   if (more.size() >= 2) return meeting(more[0].curve, more[1].curve, s, 0.5 * (more[0].t + more[1].t));
   if (more.empty()) return NAN;
   const bool low = left.head == left.tail ? more[0].t - line.lo < line.hi - more[0].t : left.tail;
-  const CurveId edge{CurveId::edge, -1, static_cast<signed char>(low ? line.lo_edge : line.hi_edge), -1, -1, 0};
+  const CurveId edge{CurveId::edge, -1, static_cast<std::int8_t>(low ? line.lo_edge : line.hi_edge), -1, -1, 0};
   return meeting(more[0].curve, edge, s, more[0].t);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "stability/region_line_rows.hpp"
 
@@ -13,9 +14,8 @@ constexpr int most_steps = 400;  // typical: 2 to 20
 /// How far beyond t the mode stays infeasible by the multipliers of m.
 double reach_of_multipliers(const LineRows& rows, double t, const Margin& m) {
   Form<Quadratic> sum;
-  const signed char basis[3] = {m.basis.a, m.basis.b, m.basis.c};
   for (int k = 0; k < m.count; ++k) {
-    const Form<Quadratic>& f = rows.row[basis[k]];
+    const Form<Quadratic>& f = rows.row[m.basis.row(k)];
     sum = {sum.u + f.u * m.y[k], sum.one + f.one * m.y[k], sum.w + f.w * m.y[k]};
   }
   double reach = HUGE_VAL;
@@ -78,7 +78,7 @@ class March {
   /// The mode starts or ends to be feasible at t. What came and went within one step is forgotten.
   void cross(double t, CurveId curve) {
     if (curve.kind != CurveId::denominator && curve.kind != CurveId::edge)
-      curve.mode = static_cast<signed char>(index_);
+      curve.mode = static_cast<std::int8_t>(index_);
     feasible_ = !feasible_;
     if (!found_.crossings.empty() && t - found_.crossings.back().t < 4 * step_) found_.crossings.pop_back();
     else found_.crossings.push_back({t, curve, feasible_});
@@ -148,7 +148,7 @@ void solve_line(const RegionMode& mode, int index, double s, double from, double
     // On D = 0 itself all that counts is the sign beyond: the stretch begins a step inside.
     march.run(k == 0 ? t : t + step, end, feasible, begin);
     feasible = march.feasible();
-    begin = {CurveId::denominator, static_cast<signed char>(index), -1, -1, -1, 0};
+    begin = {CurveId::denominator, static_cast<std::int8_t>(index), -1, -1, -1, 0};
     t = end;
   }
   // What was recorded at `from` is no crossing but the state there.
@@ -165,9 +165,8 @@ double polish(const RegionModes& modes, const CurveId& curve, double s, double t
   if (direct) {
     line = on_line(curve.kind == CurveId::edge ? modes.edges()[curve.a] : modes.modes()[curve.mode].denominator, s);
   } else {
-    const signed char index[3] = {curve.a, curve.b, curve.c};
-    for (int k = 0; k < 3 && index[k] >= 0; ++k) {
-      const Form<Poly2>& f = modes.modes()[curve.mode].row[index[k]].form;
+    for (int k = 0; k < 3 && curve.row(k) >= 0; ++k) {
+      const Form<Poly2>& f = modes.modes()[curve.mode].row[curve.row(k)].form;
       row[k] = {on_line(f.u, s), on_line(f.one, s), on_line(f.w, s)};
     }
   }

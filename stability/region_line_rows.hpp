@@ -74,10 +74,9 @@ struct LineRows {
   bool excluded_between(double t, double length, const Margin& m, const Margin& n) const {
     std::array<double, 6> y0{}, y1{};
     const auto spread = [](const Margin& from, std::array<double, 6>& y) {
-      const signed char basis[3] = {from.basis.a, from.basis.b, from.basis.c};
       double sum = 0;
       for (int k = 0; k < from.count; ++k) sum += from.y[k];
-      for (int k = 0; k < from.count; ++k) y[basis[k]] = from.y[k] / sum;
+      for (int k = 0; k < from.count; ++k) y[from.basis.row(k)] = from.y[k] / sum;
     };
     spread(m, y0);
     spread(n, y1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace surefoot::stability {
 namespace {
@@ -18,10 +19,10 @@ Margin single(const Form<double>* g, int k) {
   m.value = value_at(g[k], m.u, m.w);
   m.basis = {CurveId::corner,
              -1,
-             static_cast<signed char>(k),
+             static_cast<std::int8_t>(k),
              -1,
              -1,
-             static_cast<signed char>((m.u > 0 ? 1 : 0) + (m.w > 0 ? 2 : 0))};
+             static_cast<std::int8_t>((m.u > 0 ? 1 : 0) + (m.w > 0 ? 2 : 0))};
   m.count = 1;
   m.y = {1, 0, 0};
   return m;
@@ -36,7 +37,7 @@ bool pair(const Form<double>* g, int i, int j, Margin& m) {
     if (found && value <= m.value) return;
     found = true;
     m.u = u, m.w = w, m.value = value;
-    m.basis.place = static_cast<signed char>(side);
+    m.basis.place = static_cast<std::int8_t>(side);
   };
   for (int end : {-1, 1}) {
     const double w = -(h.one + end * h.u) / h.w;
@@ -45,7 +46,7 @@ bool pair(const Form<double>* g, int i, int j, Margin& m) {
     if (std::abs(u) <= 1 + equal_rows) offer(u, end, end < 0 ? 2 : 3);
   }
   if (!found) return false;
-  m.basis = {CurveId::side, -1, static_cast<signed char>(std::min(i, j)), static_cast<signed char>(std::max(i, j)), -1,
+  m.basis = {CurveId::side, -1, static_cast<std::int8_t>(std::min(i, j)), static_cast<std::int8_t>(std::max(i, j)), -1,
              m.basis.place};
   m.count = 2;
   const bool free_w = m.basis.place < 2;
@@ -73,9 +74,9 @@ bool triple(const Form<double>* g, int i, int j, int k, Margin& m) {
   m.value = y[0] * f.one + y[1] * e.one + y[2] * h.one;
   m.basis = {CurveId::inside,
              -1,
-             static_cast<signed char>(row[0]),
-             static_cast<signed char>(row[1]),
-             static_cast<signed char>(row[2]),
+             static_cast<std::int8_t>(row[0]),
+             static_cast<std::int8_t>(row[1]),
+             static_cast<std::int8_t>(row[2]),
              0};
   m.count = 3;
   m.y = {y[0], y[1], y[2]};
@@ -84,12 +85,11 @@ bool triple(const Form<double>* g, int i, int j, int k, Margin& m) {
 
 /// The optimum of the rows of a basis and one more row that is violated at it: the new row is tight.
 Margin enter(const Form<double>* g, const Margin& old, int j) {
-  const signed char rows[3] = {old.basis.a, old.basis.b, old.basis.c};
   Margin best = old;
   double best_excess = -HUGE_VAL;
   const auto offer = [&](const Margin& m) {  // the candidate at which no other row is lower
     double least = value_at(g[j], m.u, m.w);
-    for (int k = 0; k < old.count; ++k) least = std::min(least, value_at(g[rows[k]], m.u, m.w));
+    for (int k = 0; k < old.count; ++k) least = std::min(least, value_at(g[old.basis.row(k)], m.u, m.w));
     const double excess = least - m.value;
     if (excess > best_excess + equal_rows || (excess > best_excess - equal_rows && m.value > best.value)) {
       best_excess = excess;
@@ -100,10 +100,10 @@ Margin enter(const Form<double>* g, const Margin& old, int j) {
   if (best_excess >= -equal_rows) return best;
   Margin m;
   for (int k = 0; k < old.count; ++k)
-    if (pair(g, j, rows[k], m)) offer(m);
+    if (pair(g, j, old.basis.row(k), m)) offer(m);
   for (int k = 0; k < old.count; ++k)
     for (int l = k + 1; l < old.count; ++l)
-      if (triple(g, j, rows[k], rows[l], m)) offer(m);
+      if (triple(g, j, old.basis.row(k), old.basis.row(l), m)) offer(m);
   return best;
 }
 
@@ -111,7 +111,7 @@ Margin enter(const Form<double>* g, const Margin& old, int j) {
 
 Margin margin(const Form<double>* rows, int count) {
   std::array<Form<double>, 6> g;
-  std::array<double, 6> size;
+  std::array<double, 6> size{};
   if (count == 0) return {1, {}, 0, 0, 0, {}};
   Margin m;
   m.value = HUGE_VAL;
@@ -139,8 +139,7 @@ Margin margin(const Form<double>* rows, int count) {
   // Rows that depend on each other have margin 0; rounding must not make that feasible.
   constexpr double no_margin = 1e-14;  // of rows of size 1
   if (m.value < no_margin) m.value = std::min(m.value, 0.0);
-  const signed char basis[3] = {m.basis.a, m.basis.b, m.basis.c};
-  for (int k = 0; k < m.count; ++k) m.y[k] = size[basis[k]] > 0 ? m.y[k] / size[basis[k]] : 0;
+  for (int k = 0; k < m.count; ++k) m.y[k] = size[m.basis.row(k)] > 0 ? m.y[k] / size[m.basis.row(k)] : 0;
   return m;
 }
 

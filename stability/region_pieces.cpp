@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace surefoot::stability {
 namespace {
@@ -241,7 +242,7 @@ ModePart::Kind LeafMode::state(std::uint64_t holds) const {
 ModeThere narrowed(const RegionModes& modes, int mode, const ModeThere& there, const Rectangle& part) {
   ModeThere result = there;
   if (there.denominator) {
-    const CurveId id{CurveId::denominator, static_cast<signed char>(mode), -1, -1, -1, 0};
+    const CurveId id{CurveId::denominator, static_cast<std::int8_t>(mode), -1, -1, -1, 0};
     const int sign = sign_there(curve_there(modes, id, part));
     result.denominator = sign == 0;
     if (sign < 0) result.part[0] = there.part[1];

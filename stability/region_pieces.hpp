@@ -3,6 +3,7 @@
 // modes are feasible.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct LeafMode {
   /// Gives the conditions, always in the same order; first D > 0, where its sign changes.
   template <class List>
   void list(List&& give) const {
-    if (there.denominator) give({{CurveId::denominator, static_cast<signed char>(mode), -1, -1, -1, 0}, 1});
+    if (there.denominator) give({{CurveId::denominator, static_cast<std::int8_t>(mode), -1, -1, -1, 0}, 1});
     for (int part = 0; part <= there.denominator; ++part)
       for (const CurveCondition& condition : there.part[part].conditions()) give(condition);
   }

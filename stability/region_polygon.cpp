@@ -27,7 +27,7 @@ AlignedBox2d bounds_of(const RegionPolygon& polygon) {
 namespace {
 
 LabelledPolygon window_polygon(const AlignedBox2d& window) {
-  const Vector2d a = window.min(), b = window.max();
+  const Vector2d &a = window.min(), &b = window.max();
   return {{a, {b.x(), a.y()}, b, {a.x(), b.y()}}, {4, "window"}};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "stability/region_covector.hpp"
@@ -70,7 +71,7 @@ ModeThere mode_there(const RegionModes& modes, int index, const Rectangle& recta
     there = with_both_signs(modes, index, rectangle, edges, d, curves);
   }
   for (ModePart& part : there.part)
-    for (int k = 0; k < part.count; ++k) part.condition[k].curve.mode = static_cast<signed char>(index);
+    for (int k = 0; k < part.count; ++k) part.condition[k].curve.mode = static_cast<std::int8_t>(index);
   return there;
 }
 

@@ -23,6 +23,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "stability/region_bivariate.hpp"
@@ -33,7 +34,7 @@ namespace surefoot::stability {
 /// Holds where sign * curve > 0.
 struct CurveCondition {
   CurveId curve;
-  signed char sign = 1;
+  std::int8_t sign = 1;
 };
 
 /// A mode in a rectangle where its denominator has one sign.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "stability/polynomial_frame.hpp"
 
@@ -43,7 +44,7 @@ void name_rows(RegionMode& mode, int contacts) {
   int k = 0;
   const auto name = [&](RowMeaning meaning, int contact) {
     mode.row[k].meaning = meaning;
-    mode.row[k++].contact = static_cast<signed char>(contact);
+    mode.row[k++].contact = static_cast<std::int8_t>(contact);
   };
   const ModeSpec& spec = mode.spec;
   switch (spec.kind) {

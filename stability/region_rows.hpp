@@ -66,7 +66,7 @@ struct Form {
 struct RegionRow {
   Form<Poly2> form;
   RowMeaning meaning{};
-  signed char contact = 0;
+  std::int8_t contact = 0;
 };
 
 struct RegionMode {
@@ -81,12 +81,13 @@ struct RegionMode {
 
 /// Which curve bounds: of a mode (kind corner, side, inside, denominator) or of R_SS(W) (kind edge, number in a).
 struct CurveId {
-  enum Kind : signed char { corner, side, inside, denominator, edge } kind = corner;
-  signed char mode = -1;
-  signed char a = -1, b = -1, c = -1;  ///< rows, ascending; edge: its number
+  enum Kind : std::int8_t { corner, side, inside, denominator, edge } kind = corner;
+  std::int8_t mode = -1;
+  std::int8_t a = -1, b = -1, c = -1;  ///< rows, ascending; edge: its number
+  int row(int k) const { return k == 0 ? a : k == 1 ? b : c; }
   /// corner: bit 0 set for u = +1, bit 1 for w = +1; side: 0..3 for u = -1, u = +1, w = -1, w = +1
-  signed char place = 0;
-  friend auto operator<=>(const CurveId&, const CurveId&) = default;
+  std::int8_t place = 0;
+  friend auto operator<=>(const CurveId&, const CurveId&) = default;  // NOLINT(modernize-use-nullptr): there is none
 };
 
 /// The curve of a basis from rows in any number type.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace surefoot::stability {
 
@@ -27,10 +28,13 @@ SignedMode::SignedMode(const RegionMode& mode, const Rectangle& rectangle, doubl
 void SignedMode::decide(const Margin& m, bool curves, ModePart& part, double& strip) const {
   const bool feasible = m.value > 0;
   double own = 0;
+  const auto is_nowhere = [&] {
+    if (excluded(m, {}, own) || excluded_by_basis(m.basis)) return true;
+    const Box box = remaining_box();
+    return box.empty || excluded(m, box, own);
+  };
   if (m.count == 0 || (feasible && witnessed(m.u, m.w, own))) part.kind = ModePart::everywhere;
-  else if (!feasible && (excluded(m, {}, own) || excluded_by_basis(m.basis))) part.kind = ModePart::nowhere;
-  else if (const Box box = feasible ? Box{} : remaining_box(); box.empty || (!feasible && excluded(m, box, own)))
-    part.kind = ModePart::nowhere;
+  else if (!feasible && is_nowhere()) part.kind = ModePart::nowhere;
   if (part.kind == ModePart::unknown && curves && !(denominator_ && beside_denominator(part))) {
     const Margin near = margin_on_curve(m);
     own = 0;
@@ -106,9 +110,8 @@ SignedMode::Box SignedMode::remaining_box() const {
 
 bool SignedMode::excluded(const Margin& m, const Box& box, double& strip) const {
   LocalRow sum;
-  const signed char basis[3] = {m.basis.a, m.basis.b, m.basis.c};
   for (int k = 0; k < m.count; ++k) {
-    const LocalRow& row = row_[basis[k]];
+    const LocalRow& row = row_[m.basis.row(k)];
     sum.form = {sum.form.u + row.form.u * m.y[k], sum.form.one + row.form.one * m.y[k],
                 sum.form.w + row.form.w * m.y[k]};
     sum.error += row.error * m.y[k];
@@ -185,7 +188,7 @@ bool SignedMode::within(const CurveId& id, ModePart& part) const {
   for (int k = 0; k < 3 && !free; ++k) free = vertex_free_of_others(at, k, y[k], sign);
   if (!free) return false;
   part.kind = ModePart::by_curves, part.count = 1;
-  part.condition[0] = {id, static_cast<signed char>(sign * sign_)};
+  part.condition[0] = {id, static_cast<std::int8_t>(sign * sign_)};
   return true;
 }
 

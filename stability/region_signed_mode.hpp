@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -114,11 +115,11 @@ class SignedMode {
     int risings = 0, fallings = 0, opens = 0;
     std::array<Open, most> open;
     SideConditions(const SignedMode& m, int at)
-        : mode(m), side{CurveId::side, -1, 0, 0, -1, static_cast<signed char>(at)} {}
+        : mode(m), side{CurveId::side, -1, 0, 0, -1, static_cast<std::int8_t>(at)} {}
 
     bool collect();
     bool pair_holds(int i, int j);
-    bool leave_open(const CurveId& id, signed char holds) {
+    bool leave_open(const CurveId& id, std::int8_t holds) {
       if (opens == most) return false;
       open[opens++] = {{id, holds}, false};
       return true;
@@ -126,7 +127,7 @@ class SignedMode {
     CurveId corner(int k, bool high) const {
       const int end = side.place & 1, free = high ? 1 : 0;
       const int at = side.place < 2 ? end + 2 * free : free + 2 * end;
-      return {CurveId::corner, -1, static_cast<signed char>(k), -1, -1, static_cast<signed char>(at)};
+      return {CurveId::corner, -1, static_cast<std::int8_t>(k), -1, -1, static_cast<std::int8_t>(at)};
     }
     /// The corner of W to which all conditions belong that are not necessary; -1: there are others, or none.
     int corner_in_doubt() const;

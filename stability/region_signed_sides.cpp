@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace surefoot::stability {
 
@@ -171,7 +172,7 @@ bool SignedMode::positive(const Bivariate<4>& f, double error) const {
 }
 
 bool SignedMode::SideConditions::collect() {
-  const auto of_rows = static_cast<signed char>(mode.sign_);
+  const auto of_rows = static_cast<std::int8_t>(mode.sign_);
   for (int k = 0; k < mode.count_; ++k) {
     row[k] = mode.on_side(k, side);
     const double error = mode.row_[k].error;
@@ -197,7 +198,7 @@ bool SignedMode::SideConditions::collect() {
 bool SignedMode::SideConditions::pair_holds(int i, int j) {
   if (mode.positive(row[i].g * row[j].e - row[j].g * row[i].e, mode.product_error(i, j))) return true;
   CurveId id = side;
-  id.a = static_cast<signed char>(std::min(i, j)), id.b = static_cast<signed char>(std::max(i, j));
+  id.a = static_cast<std::int8_t>(std::min(i, j)), id.b = static_cast<std::int8_t>(std::max(i, j));
   return leave_open(id, i < j ? -1 : 1);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace surefoot::stability {
 
@@ -133,7 +134,7 @@ bool Subdivision::find_graphs(const Node& node) {
   leaf_.of_modes = leaf_.conditions.size();
   if (leaf_.of_modes == 0 && node.unknown != 0) return false;
   for (std::uint64_t left = node.edges; left != 0; left &= left - 1) {
-    const CurveId id{CurveId::edge, -1, static_cast<signed char>(std::countr_zero(left)), -1, -1, 0};
+    const CurveId id{CurveId::edge, -1, static_cast<std::int8_t>(std::countr_zero(left)), -1, -1, 0};
     leaf_.add(curve_there(modes_, id, node.box), 1);
   }
   constexpr double share = 1e-4, least = 1e-15;  // of the error asked for, for one curve; rounding

@@ -29,8 +29,7 @@ std::string coordinate(const char* name, const char* half_side, double centre, i
 std::string curve_in_words(const RegionMode& mode, const CurveId& id, const WrenchBox& box) {
   std::string text = mode.mode.name() + ": ";
   if (id.kind == CurveId::denominator) return text + "D = 0";
-  const signed char rows[3] = {id.a, id.b, id.c};
-  for (int k = 0; k < 3 && rows[k] >= 0; ++k) text += (k == 0 ? "" : " and ") + row_in_words(mode.row[rows[k]]);
+  for (int k = 0; k < 3 && id.row(k) >= 0; ++k) text += (k == 0 ? "" : " and ") + row_in_words(mode.row[id.row(k)]);
   const bool at_u = id.kind == CurveId::corner || (id.kind == CurveId::side && id.place < 2);
   const bool at_w = id.kind == CurveId::corner || (id.kind == CurveId::side && id.place >= 2);
   const int end_w = id.kind == CurveId::corner ? (id.place & 2) : (id.place & 1);

@@ -19,6 +19,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "stability/contact.hpp"
 #include "stability/numbers.hpp"
@@ -51,9 +52,9 @@ struct Frame {
 /// A non-static mode of a given contact set, with what the geometry of the contacts says about it for every COM.
 struct ModeSpec {
   enum class Kind : unsigned char { all_break, roll, slide, two_slides } kind;
-  signed char i, j;                  // the contacts that stay
-  signed char sigma_i, sigma_j;      // +1: U, -1: W
-  signed char sense;                 // roll, two_slides: required sign of alpha or of xi along c; 0: free
+  std::int8_t i, j;                  // the contacts that stay
+  std::int8_t sigma_i, sigma_j;      // +1: U, -1: W
+  std::int8_t sense;                 // roll, two_slides: required sign of alpha or of xi along c; 0: free
   std::array<bool, 3> row_vanishes;  // slide: N_l is a multiple of N_i, its breaking row is identically zero
 };
 

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "stability/box_test.hpp"
 #include "stability/cover_conditions.hpp"
@@ -47,7 +48,7 @@ class Screen {
   }
 
  private:
-  enum class Known : signed char { not_asked, no, yes };
+  enum class Known : std::int8_t { not_asked, no, yes };
 
   // ---- one loaded contact ----
 

@@ -59,7 +59,9 @@ static_assert(std::atomic<std::int64_t>::is_always_lock_free);  // so that a sig
 extern "C" void ask_interruption(int signal) {
   constexpr std::int64_t together = 200'000'000;  // [ns]
   timespec clock{};
+  const int interrupted_errno = errno;
   ::clock_gettime(CLOCK_MONOTONIC, &clock);
+  errno = interrupted_errno;
   const std::int64_t now = clock.tv_sec * std::int64_t{1'000'000'000} + clock.tv_nsec;
   std::int64_t first = 0;
   if (interruption_asked.compare_exchange_strong(first, now)) return;

@@ -39,6 +39,20 @@ AlignedBox2d ground_between(const Scene& scene, double x_from, double x_to) {
   return box;
 }
 
+/// Raises the box to the lowest ceiling above it that is within reach of its top.
+void show_ceiling(AlignedBox2d& box, const Scene& scene, double x_from, double x_to) {
+  double lowest = box.max().y() + scene.robot.reach_max;
+  bool found = false;
+  for (const auto& segment : scene.terrain.segments()) {
+    const double y = std::max(segment.a.y(), segment.b.y());
+    const bool here =
+        std::min(segment.a.x(), segment.b.x()) <= x_to && std::max(segment.a.x(), segment.b.x()) >= x_from;
+    if (!here || !(segment.normal.y() < 0) || y <= box.max().y() || y > lowest) continue;
+    lowest = y, found = true;
+  }
+  if (found) box.max().y() = lowest;
+}
+
 int rows_needed(double scale, double reach, double length) {
   const double home = (widest_page - 2 * margin) / scale - 2 * reach;  // a reach is shown on either side
   const int too_many = most_rows + 1;
@@ -66,6 +80,7 @@ AlignedBox2d contents(const Scene& scene, const Plan& plan) {
     if (ground.min().y() > ground.max().y()) ground.setEmpty();
   }
   box.extend(ground);
+  if (plan.status == Status::solved) show_ceiling(box, scene, box.min().x(), box.max().x());
   return box;
 }
 
@@ -113,6 +128,7 @@ Page lay_out(const Scene& scene, const Plan& plan, double top) {
     if (row.stances.empty() || plan.status != Status::solved)
       box.extend(ground_between(scene, row.x_from - pad, row.x_to + pad));
     if (box.isEmpty()) box = all;
+    if (count > 1 && plan.status == Status::solved) show_ceiling(box, scene, row.x_from - pad, row.x_to + pad);
     const double half_width = free_width / page.scale / 2;
     const double middle = (row.x_from + row.x_to) / 2;
     row.window = AlignedBox2d(Vector2d(middle - half_width, box.min().y() - pad),

@@ -6,6 +6,7 @@
 The same arguments give the same bytes. Standard library only. Over hundreds of metres rubble as rough as that of the
 canned scenes comes, sooner or later, to a place that nobody passes; --gentle makes kilometres that can be walked.
 """
+import argparse
 import random
 import sys
 
@@ -51,8 +52,15 @@ def place(x):
 
 
 def main():
-    name, length, seed, time_limit = sys.argv[1], float(sys.argv[2]), int(sys.argv[3]), float(sys.argv[4])
-    vertices, overrides = profile(length, random.Random(seed), "--gentle" in sys.argv[5:])
+    parser = argparse.ArgumentParser(description="Writes a scene of random rubble to standard output.")
+    parser.add_argument("name")
+    parser.add_argument("length", type=float, help="of the rubble [m]")
+    parser.add_argument("seed", type=int)
+    parser.add_argument("time_limit", type=float, help="of the search [s]")
+    parser.add_argument("--gentle", action="store_true", help="kilometres that can be walked")
+    a = parser.parse_args()
+    name, length, time_limit = a.name, a.length, a.time_limit
+    vertices, overrides = profile(length, random.Random(a.seed), a.gentle)
     rows = [vertices[i:i + 6] for i in range(0, len(vertices), 6)]
     text = ",\n        ".join(", ".join("[%s, %g]" % (place(v[0]), v[1]) for v in row) for row in rows)
     print("# Exercises: %g m of rubble. Made by: python3 maps/make_rubble.py %s" % (length, " ".join(sys.argv[1:])))

@@ -79,6 +79,7 @@ int run_check(const CheckArguments& arguments) {
   if (plan.status != gaits::Status::solved) {
     write_stdout(fmt::format("no plan to check: status {}{}{}\n", gaits::to_string(plan.status),
                              plan.reason.empty() ? "" : ": ", one_line(plan.reason)));
+    if (outputs.wants("--svg") || outputs.wants("--html")) note("no picture is written: there is nothing to draw");
     return exit_failure;
   }
   const gaits::Verification verification = gaits::verify(scene, plan);

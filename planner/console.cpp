@@ -54,19 +54,21 @@ namespace {
 std::atomic<std::int64_t> interruption_asked = 0;
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);  // so that a signal handler may write it
 
-/// The second of two signals ends the program, unless they come together: a terminal's or a supervisor's one request
-/// may arrive twice.
-extern "C" void ask_interruption(int signal) {
+/// Notes the first of two signals; true for the second one, unless they come together: a terminal's or a supervisor's
+/// one request may arrive twice.
+bool asked_again() {
   constexpr std::int64_t together = 200'000'000;  // [ns]
   timespec clock{};
-  const int interrupted_errno = errno;
   ::clock_gettime(CLOCK_MONOTONIC, &clock);
-  errno = interrupted_errno;
   const std::int64_t now = clock.tv_sec * std::int64_t{1'000'000'000} + clock.tv_nsec;
   std::int64_t first = 0;
-  if (interruption_asked.compare_exchange_strong(first, now)) return;
-  if (now - first < together) return;
-  end_by_signal(signal);
+  return !interruption_asked.compare_exchange_strong(first, now) && now - first >= together;
+}
+
+extern "C" void ask_interruption(int signal) {
+  const int interrupted_errno = errno;
+  if (asked_again()) end_by_signal(signal);  // returns: the signal comes once this handler is left
+  errno = interrupted_errno;
 }
 
 }  // namespace

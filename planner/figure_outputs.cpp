@@ -11,6 +11,12 @@ namespace surefoot::planner {
 
 using terrain::InputError;
 
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 FigureOutputs::FigureOutputs(const std::vector<Request>& requests, const std::optional<std::string>& input) {
   for (const Request& request : requests)
     if (request.path) targets_.push_back(open(request, input));
@@ -29,9 +35,10 @@ namespace {
 
 /// A name that promises another kind of file than the option writes.
 void check_ending(std::string_view option, const std::string& path) {
-  for (const std::string_view other : {".svg", ".html", ".png", ".pdf", ".jpg", ".json", ".yaml"}) {
+  const std::string lower = lower_case(path);
+  for (const std::string_view other : {".svg", ".html", ".png", ".pdf", ".jpg", ".jpeg", ".json", ".yaml"}) {
     const bool own = option == "-o" || other.substr(1) == option.substr(2);
-    if (!own && path.ends_with(other))
+    if (!own && lower.ends_with(other))
       throw InputError(fmt::format("{} {}: expected a name that ends in .{}", option, path, option.substr(2)));
   }
 }

@@ -24,7 +24,9 @@ class Region {
 
  private:
   friend class Field;
-  std::uint64_t row(int part, int at) const { return bits_[static_cast<std::size_t>(part * rows_ + at)]; }
+  std::uint64_t row(int part, int at) const {
+    return bits_[static_cast<std::size_t>(part) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(at)];
+  }
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();  // of the grid [m]
   double width_ = 1;                                  // of a cell [m]
   std::int64_t i_ = 0, j_ = 0;                        // first column and row

@@ -11,6 +11,7 @@ namespace {
 
 std::vector<std::pair<int, int>> with_cost(const std::vector<int>& nodes, int cost) {
   std::vector<std::pair<int, int>> list;
+  list.reserve(nodes.size());
   for (const int node : nodes) list.emplace_back(node, cost);
   return list;
 }

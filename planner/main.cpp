@@ -131,7 +131,7 @@ CLI::App* add_region(CLI::App& app, RegionArguments& a) {
       app.add_subcommand("region", "Stability regions of a stance: where the COM may be, and what forbids the rest");
   region->add_option("SCENE", a.scene, scene_words);
   region->add_option("--posture", a.posture, "instead of a scene: a query line without com (JSON)")->type_name("FILE");
-  region->add_option("--stance", a.stance, "two or three legs that stand (default: the scene's first stance)")
+  region->add_option("--stance", a.stance, "two or three legs that stand (default: start.support, or all start feet)")
       ->type_name("LEG,LEG");
   region->add_option("--wrench", a.wrench, "one wrench p,q [1, m] instead of the box W")->type_name("P,Q");
   region
@@ -156,7 +156,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
                        "restitution, gravity, q, q_rate, heights, heights_rate");
   simulate->add_option("--scene", a.scene, "instead of a posture: two start feet of a scene file or canned scene")
       ->type_name("SCENE");
-  simulate->add_option("--stance", a.stance, "which two (default: the scene's first stance)")->type_name("LEG,LEG");
+  simulate->add_option("--stance", a.stance, "which two (default: start.support)")->type_name("LEG,LEG");
   simulate->add_option("--restitution", a.restitution, "coefficient of restitution, between 0 and 1")->type_name("E");
   simulate->add_option("--com", a.com, "COM [m]")->type_name("X,Y");
   simulate->add_option("--q", a.q, "start: displacement and turn [m, m, rad]")->type_name("RX,RY,THETA");
@@ -203,6 +203,16 @@ bool is_number(const std::string& text) {
   return !text.empty() && *end == '\0';
 }
 
+/// The option that a misspelt word stands for: a letter off, cut short, or with one dash only. "" if none is near.
+std::string option_meant_by(const std::string& word, const std::vector<std::string>& options) {
+  if (!word.starts_with("--")) {
+    const bool known = std::find(options.begin(), options.end(), "-" + word) != options.end();
+    return known ? "-" + word : "";
+  }
+  const auto longer = std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.starts_with(word); });
+  return longer != options.end() && word.size() > 3 ? *longer : near_miss(word, options);
+}
+
 /// What the parser says, with the option or command that may have been meant.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
   const std::vector<std::string> commands = command_names(app);
@@ -210,6 +220,7 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const CLI::App* chosen = parsed.empty() ? nullptr : parsed.front();
   if (chosen == nullptr && count > 1 && words[1][0] != '-') {
+    if (std::string_view(words[1]) == "help") return "expected surefoot --help, or surefoot COMMAND --help";
     const std::string meant = near_miss(words[1], commands);
     return fmt::format("unknown command '{}'{}; there are {}", words[1],
                        meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
@@ -228,11 +239,15 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
       for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   for (int i = 1; i < count; ++i) {
     const std::string word = std::string(words[i]).substr(0, std::string(words[i]).find('='));
-    if (word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
-      if (const std::string meant = near_miss(word, options); !meant.empty())
-        return fmt::format("unknown option {}, did you mean {}?", word, meant);
+    if (!word.starts_with("-") || std::find(options.begin(), options.end(), word) != options.end()) continue;
+    if (const std::string meant = option_meant_by(word, options); !meant.empty())
+      return fmt::format("unknown option {}, did you mean {}?", word, meant);
   }
-  return fmt::format("{} (surefoot {}--help tells what is)", message,
+  constexpr std::size_t most = 3;  // words that are named
+  const std::vector<std::string> extra = app.remaining(true);
+  const std::vector<std::string> named(extra.begin(), extra.begin() + std::min(extra.size(), most));
+  return fmt::format("not expected here: {}{} (surefoot {}--help tells what is)", fmt::join(named, " "),
+                     extra.size() > most ? fmt::format(" and {} more words", extra.size() - most) : "",
                      chosen == nullptr ? "" : chosen->get_name() + " ");
 }
 

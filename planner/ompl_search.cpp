@@ -115,7 +115,7 @@ oc::SpaceInformationPtr make_space(StepProposals& proposals) {
   controls->setControlSamplerAllocator([&proposals](const oc::ControlSpace* control_space) {
     return std::make_shared<StepSampler>(control_space, proposals);
   });
-  const auto si = std::make_shared<oc::SpaceInformation>(space, controls);
+  auto si = std::make_shared<oc::SpaceInformation>(space, controls);
   si->setStatePropagator(std::make_shared<StepPropagator>(si, proposals));
   si->setStateValidityChecker(std::make_shared<LegalStep>(si));
   si->setMotionValidator(std::make_shared<StepMotion>(si, proposals));
@@ -132,6 +132,7 @@ std::vector<Node> nodes_of(const ob::PathPtr& path) {
   std::vector<Node> nodes;
   auto* of_steps = dynamic_cast<oc::PathControl*>(path.get());
   const auto& states = of_steps ? of_steps->getStates() : path->as<ompl::geometric::PathGeometric>()->getStates();
+  nodes.reserve(states.size());
   for (const ob::State* state : states) nodes.push_back(StanceSpace::of(state).node);
   return nodes;
 }

@@ -22,7 +22,7 @@ gaits::Scene open_scene(const std::string& path) {
   std::optional<gaits::Scene> scene = open_scene(path, faults);
   if (scene) return *std::move(scene);
   const terrain::InputError first = faults.kept().front();
-  if (faults.count() == 1) throw first;
+  if (faults.count() == 1) throw terrain::InputError(first);
   const std::string place = path == "-" ? "" : " " + one_line(path);
   throw terrain::InputError(fmt::format("{} (and {} more: surefoot validate{})", first.what(), faults.count() - 1,
                                         place),

@@ -35,9 +35,11 @@ int write_and_close(int descriptor, std::string_view text, bool flush) {
   return fault;
 }
 
-/// Where a path leads, through symbolic links, dangling ones too.
+/// Where a path leads, through symbolic links, dangling ones too. What is there and no file (a device, a pipe) stays as
+/// it is named: links of /proc, as /dev/stdout is, lead to pipes by names that are none.
 std::string follow_links(const std::string& path) {
   std::error_code ignored;
+  if (struct stat status{}; ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return path;
   fs::path target = path;
   constexpr int most_links = 40;  // as the kernel's own limit
   for (int i = 0; i < most_links && fs::is_symlink(target, ignored); ++i) {

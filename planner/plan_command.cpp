@@ -62,17 +62,17 @@ SearchOptions search_options(const PlanArguments& arguments, const gaits::Scene&
 /// As asked for, otherwise by the name of the output, otherwise text.
 std::string output_format(const PlanArguments& arguments) {
   if (arguments.format) return one_of("--format", *arguments.format, {"text", "json", "yaml"});
-  const std::string name = arguments.output.value_or("");
-  for (const char* picture : {".png", ".pdf"})
-    if (name.ends_with(picture))
+  const std::string name = arguments.output.value_or(""), lower = lower_case(name);
+  for (const char* picture : {".png", ".pdf", ".jpg", ".jpeg"})
+    if (lower.ends_with(picture))
       throw terrain::InputError(fmt::format("-o {}: the plan itself goes there; pictures are --svg and --html", name));
   for (const char* picture : {".svg", ".html"})
-    if (name.ends_with(picture))
+    if (lower.ends_with(picture))
       throw terrain::InputError(fmt::format(
           "-o {}: the plan itself goes there; did you mean --{} {}? (--format text writes it there all the same)", name,
           picture + 1, name));
-  if (name.ends_with(".json")) return "json";
-  if (name.ends_with(".yaml") || name.ends_with(".yml")) return "yaml";
+  if (lower.ends_with(".json")) return "json";
+  if (lower.ends_with(".yaml") || lower.ends_with(".yml")) return "yaml";
   return "text";
 }
 
@@ -150,9 +150,13 @@ std::string what_would_help(const gaits::Scene& scene, SearchOptions options, bo
   show_progress("");
   std::string text = "\nNo single change of friction, reach, disturbances or clearance was found to help.\n";
   if (!tried.found.empty())
-    text = "\nEach of these alone would do (with it a plan was found and verified; with less none was found):\n";
+    text =
+        "\nEach of these alone would do (with it a plan was found and verified; with less a short search found "
+        "none):\n";
   for (const RemedyFound& remedy : tried.found) text += fmt::format("  {}\n", remedy.words);
-  if (tried.cut_off) text += "This was cut off by the time limit: others, or less, might do.\n";
+  if (tried.cut_off)
+    text += fmt::format("This was cut off by {}: others, or less, might do.\n",
+                        options.interrupted() ? "Ctrl-C" : "the time limit");
   return text;
 }
 

@@ -249,15 +249,17 @@ void write_error(std::string& out, const std::string& message, std::size_t numbe
 
 }  // namespace
 
-void answer_query(std::string& out, std::string_view line, std::size_t number) {
+bool answer_query(std::string& out, std::string_view line, std::size_t number) {
   const std::size_t begin = out.size();
   try {
     const Question question = read_question(line);
     const RobustOracle oracle(question.contacts, question.rho, question.box);
     write(out, question.com_to ? ask_line(oracle, question) : ask_point(oracle, question));
+    return true;
   } catch (const std::exception& fault) {
     out.resize(begin);
     write_error(out, fault.what(), number);
+    return false;
   }
 }
 

@@ -30,6 +30,11 @@ class QuerySession {
     while (read_more()) answer_complete_lines();
     if (!pending_.empty() || skipping_) answer(pending_);
     flush();
+    if (number_ > 1 && questions_ == 0)
+      note(fmt::format(
+          "{}: none of the {} lines is a question; one is a JSON object on one line with contacts, com, rho, "
+          "kappa and nu",
+          name_, number_));
   }
 
  private:
@@ -60,7 +65,7 @@ class QuerySession {
     ++number_;
     searched_ = 0;
     if (skipping_ || line.size() > longest_query_line) answer_too_long(out_, number_);
-    else answer_query(out_, line, number_);
+    else questions_ += answer_query(out_, line, number_);
     skipping_ = false;
     out_ += '\n';
   }
@@ -72,10 +77,10 @@ class QuerySession {
 
   int descriptor_;
   std::string name_;
-  std::string pending_;       // read, not yet answered
-  std::size_t searched_ = 0;  // of pending_, known to hold no line feed
-  bool skipping_ = false;     // inside a line that is too long
-  std::size_t number_ = 0;
+  std::string pending_;                     // read, not yet answered
+  std::size_t searched_ = 0;                // of pending_, known to hold no line feed
+  bool skipping_ = false;                   // inside a line that is too long
+  std::size_t number_ = 0, questions_ = 0;  // lines read, and those of them that were answered
   std::string out_;
 };
 

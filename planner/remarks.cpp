@@ -8,14 +8,31 @@
 
 namespace surefoot::planner {
 
+namespace {
+
+std::string ceiling_remark(const gaits::Scene& scene) {
+  const auto chain = terrain::ceiling_over_nothing(scene.terrain);
+  if (!chain) return "";
+  return fmt::format(
+      "chain {} runs from right to left and has nothing below it: is it ground given the wrong way round? As it is no "
+      "foot can stand on it; ground runs from left to right, a ceiling from right to left",
+      *chain);
+}
+
+}  // namespace
+
 std::string scene_remark(const gaits::Scene& scene) {
   constexpr double unheard_of = 5;  // [1] rubber on rock stays below 2
   for (const terrain::Segment& segment : scene.terrain.segments())
     if (segment.surface.friction > unheard_of)
       return fmt::format("friction {:.6g} on segment {} of chain {}: is it an angle? The coefficient is its tangent",
                          segment.surface.friction, segment.index, segment.chain);
+  if (scene.robot.radius_of_gyration > scene.robot.reach_max)
+    return fmt::format(
+        "the radius of gyration, {:.6g} m, is more than the greatest reach, {:.6g} m: are both in metres?",
+        scene.robot.radius_of_gyration, scene.robot.reach_max);
   const auto seen = terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max);
-  if (!seen) return "";
+  if (!seen) return ceiling_remark(scene);
   return fmt::format(
       "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round? Free space "
       "is on the left of a chain: ground runs from left to right, a ceiling from right to left",

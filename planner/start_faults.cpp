@@ -51,7 +51,7 @@ std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& st
   if (rule == Rule::clearance)
     return fmt::format("the COM is {:.6g} m from the terrain, clearance is {} m",
                        scene.terrain.distance(stance.com, 2 * robot.clearance + robot.reach_max), robot.clearance);
-  if (const std::string slips = friction_fault(scene, stance); !slips.empty()) return slips;
+  if (std::string slips = friction_fault(scene, stance); !slips.empty()) return slips;
   const auto oracle = gaits::oracle_of(scene, stance.feet);
   const auto sigma = gaits::safety_factor(scene, oracle, stance.com);
   if (gaits::asks_frictional(scene.criterion))

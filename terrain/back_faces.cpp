@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t most_tests = 4'000'000;  ///< of a ray against a segment: tens of milliseconds
 constexpr double rounding = 1e-9;              ///< relative to a length
+constexpr double level = 0.7;                  ///< least |n_y| of a ceiling: less is a wall that leans
 
 /// Distance along the ray (a unit vector) at which it meets the segment, ends and what rounding adds to them included;
 /// infinity if it does not.
@@ -50,6 +51,29 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within) {
     const Segment& ground = segments[k * segments.size() / rays];
     if (!ground.surface.foothold) continue;
     if (auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground)) return seen;
+  }
+  return std::nullopt;
+}
+
+std::optional<int> ceiling_over_nothing(const Terrain& terrain) {
+  const auto& segments = terrain.segments();
+  std::size_t rays_left = rays_of(terrain, segments.size());
+  const auto over_something = [&](const Segment& ceiling) {
+    const Point middle = 0.5 * (ceiling.a + ceiling.b);
+    return std::any_of(segments.begin(), segments.end(), [&](const Segment& other) {
+      return other.chain != ceiling.chain && other.normal.y() > 0 && std::isfinite(meeting(middle, {0, -1}, other));
+    });
+  };
+  for (auto first = segments.begin(); first != segments.end() && rays_left > 0;) {
+    const auto last = std::find_if(first, segments.end(), [&](const Segment& s) { return s.chain != first->chain; });
+    const bool faces_up = std::any_of(first, last, [](const Segment& s) { return s.normal.y() > 0; });
+    bool down = false, over = false;
+    for (auto s = first; s != last && !faces_up && !over && rays_left > 0; ++s) {
+      if (!(s->normal.y() < -level)) continue;
+      down = true, over = over_something(*s), --rays_left;
+    }
+    if (down && !over && rays_left > 0) return first->chain;
+    first = last;
   }
   return std::nullopt;
 }

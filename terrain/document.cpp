@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "terrain/flow_brackets.hpp"
 #include "terrain/source.hpp"
 #include "terrain/yaml_advice.hpp"
 
@@ -156,7 +157,10 @@ class DocumentBuilder : public YAML::EventHandler {
 
   void open(const YAML::Mark& mark, const std::string& tag, bool map) {
     const bool told = !check_tag(mark, tag);
-    if (expects_key()) fail(mark, "a list or map as a key; expected a word");
+    if (expects_key()) {
+      check_flow_brackets(source_);  // what is not closed is taken for a key
+      fail(mark, "a list or map as a key; expected a word");
+    }
     if (frames_.size() >= max_depth) fail(mark, "nested deeper than " + std::to_string(max_depth) + " levels");
     frames_.push_back({mark, told, static_cast<std::ptrdiff_t>(pool_.size()), map});
   }
@@ -264,6 +268,7 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
     }
   } catch (const YAML::Exception& error) {
     if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());
+    check_flow_brackets(source);
     const YAML::Mark mark = error.mark.is_null() ? builder.last_mark() : error.mark;
     const std::string message = readable(error.msg);
     const std::string advice = yaml_advice(source, message, static_cast<std::size_t>(mark.pos), builder.open());

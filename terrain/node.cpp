@@ -238,6 +238,8 @@ void Node::refuse_key(const std::vector<std::string>& keys, std::string_view wha
     fail(message + "the decimal point is a point, no comma: expected " +
          shown(std::get<std::string_view>(before->second.content_)) + "." + shown(key));
   }
+  if (key.find("\u00a0") != std::string_view::npos)
+    fail(message + "a no-break space (U+00A0) stands in it: write ordinary spaces");
   const std::string meant = meant_by(key, keys);
   if (!meant.empty() && key.starts_with(meant + ':')) fail(message + "a space must follow the colon");
   const std::string question = meant.empty() ? "" : "did you mean \"" + meant + "\"?";

@@ -69,6 +69,7 @@ class TerrainFault : public std::invalid_argument {
   int vertex;       ///< the vertex that is wrong, or that begins the segment that is wrong; -1: none in particular
   int other_chain;  ///< where two segments meet: the other one (the earlier); else -1
   int other_segment;
+  bool chains_touch = false;  ///< one of two chains ends, or has a vertex, on the other
 };
 
 /// Told of each fault; false: the rest is of no interest. It may throw.

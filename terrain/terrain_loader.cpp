@@ -84,8 +84,10 @@ const Node& vertex_node(const Node& chains, int chain, int vertex) {
   if (fault.chain < 0 || fault.vertex < 0) chains.fail(fault.what());
   const Node& at = vertex_node(chains, fault.chain, fault.vertex);
   if (fault.other_chain < 0) at.fail(fault.what());
-  at.fail(std::string(fault.what()) + ", which begins at " +
-          vertex_node(chains, fault.other_chain, fault.other_segment).where());
+  at.fail(
+      std::string(fault.what()) + ", which begins at " +
+      vertex_node(chains, fault.other_chain, fault.other_segment).where() +
+      (fault.chains_touch ? "; ground that touches is one chain (\"segments\" tells where its surface changes)" : ""));
 }
 
 }  // namespace

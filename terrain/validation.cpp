@@ -83,6 +83,12 @@ bool collide(const Segment& i, const Segment& j, bool closed, int last) {
   return segments_meet(i.a, i.b, j.a, j.b);
 }
 
+/// Whether one of two segments that meet ends on the other.
+bool touch(const Segment& i, const Segment& j) {
+  return orientation(i.a, i.b, j.a) == 0 || orientation(i.a, i.b, j.b) == 0 || orientation(j.a, j.b, i.a) == 0 ||
+         orientation(j.a, j.b, i.b) == 0;
+}
+
 }  // namespace
 
 bool check_chains(const std::vector<Chain>& chains, const TerrainFaultReport& report) {
@@ -117,9 +123,10 @@ void check_crossings(const std::vector<Segment>& segments, const std::vector<Cha
               });
     if (first == static_cast<std::int32_t>(k)) continue;
     const Segment& earlier = segments[first];
-    const TerrainFault fault(name_of(later.chain, "segment", later.index) + " crosses or touches " +
-                                 name_of(earlier.chain, "segment", earlier.index),
-                             later.chain, later.index, earlier.chain, earlier.index);
+    TerrainFault fault(name_of(later.chain, "segment", later.index) + " crosses or touches " +
+                           name_of(earlier.chain, "segment", earlier.index),
+                       later.chain, later.index, earlier.chain, earlier.index);
+    fault.chains_touch = later.chain != earlier.chain && touch(earlier, later);
     if (!report(fault)) return;
   }
 }

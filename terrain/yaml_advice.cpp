@@ -73,7 +73,8 @@ std::string unexpected_colon(const Source& source, std::size_t position) {
   if (indentation.find('\t') != std::string_view::npos) return "; a tab stands in the indentation: indent by spaces";
   if (has_close_colon(content(before))) return space_after_colon;
   if (has_key(content(before))) return "; a text that holds a colon stands in quotes, a map on one line in braces {}";
-  return advice_on_line_above(source, position);
+  const std::string advice = advice_on_line_above(source, position);
+  return advice.empty() ? same_column : advice;
 }
 
 }  // namespace

@@ -311,6 +311,16 @@ TEST_CASE("ceilings, walls, islands and nested chains are drawn", "[plan_svg]") 
   REQUIRE(count_class(read_xml_text(to_svg(scene, plan_by_hand(scene))), "stance") == 3);
 }
 
+TEST_CASE("a ceiling within reach of the plan is in the picture, a higher one is not", "[plan_svg]") {
+  const auto page_height = [](std::vector<surefoot::terrain::Chain> more) {
+    const Scene scene = scene_on(level_ground_and(std::move(more)));
+    return read_xml_text(to_svg(scene, plan_by_hand(scene))).get<double>("svg.<xmlattr>.height");
+  };
+  const double without = page_height({});
+  CHECK(page_height({chain({{5, 1.2}, {-5, 1.2}})}) > without + 50);  // [px]: 0.7 m above the COM
+  CHECK(page_height({chain({{5, 1.5}, {-5, 1.5}})}) == without);      // beyond reach 0.9
+}
+
 TEST_CASE("no locale changes what is written", "[plan_text][plan_svg][plan_io]") {
   struct Comma : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }

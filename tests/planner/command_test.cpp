@@ -142,13 +142,16 @@ TEST_CASE("A plan that does not hold can be looked at with what is wrong with it
 TEST_CASE("Names that promise another kind of file are refused before anything is planned", "[command]") {
   const Workplace place;
   place.write("scene.yaml", scene);
-  for (const char* names : {"-o plan.svg", "-o plan.png", "--svg plan.png", "--svg page.html", "--html plan.svg"}) {
+  for (const char* names :
+       {"-o plan.svg", "-o plan.png", "-o plan.JPG", "--svg plan.png", "--svg page.HTML", "--html plan.svg"}) {
     const auto run = place.run(std::string("plan scene.yaml ") + names);
     INFO(names << ": " << run.err);
     CHECK(run.status == 2);
     CHECK(run.one_error());
   }
   CHECK(place.count() == 1);
+  REQUIRE(place.run("plan scene.yaml -q --effort 0 -o plan.YML").status == 0);
+  CHECK(place.run("check scene.yaml plan.YML").status == 0);
   REQUIRE(place.run("plan scene.yaml -q --effort 0 -o plan.json --svg picture.svg").status == 0);
   CHECK_THAT(place.run("plan picture.svg").err, Catch::Contains("picture.svg:1:1: this is a picture or a page"));
 }
@@ -330,6 +333,13 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
   place.write("maps/stairs_up.yaml", scene);
   CHECK_THAT(place.run("paln x").err, Catch::Contains("did you mean plan?"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --sede 3").err, Catch::Contains("did you mean --seed?"));
+  CHECK_THAT(place.run("plan maps/stairs_up.yaml --time 3").err, Catch::Contains("did you mean --time-limit?"));
+  CHECK_THAT(place.run("plan maps/stairs_up.yaml -svg a.svg").err, Catch::Contains("did you mean --svg?"));
+  CHECK_THAT(place.run("help").err, Catch::Contains("surefoot --help"));
+  const auto many = place.run("plan a.yaml b.yaml c.yaml d.yaml e.yaml");
+  CHECK(many.status == 2);
+  CHECK_THAT(many.err,
+             Catch::Contains("not expected here: b.yaml c.yaml d.yaml and 1 more words (surefoot plan --help"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --planner RTT").err, Catch::Contains("did you mean \"RRT\"?"));
   for (const char* name : {"stairs_up.yaml", "maps/stairs_pu.yaml", "stairsup"})
     CHECK_THAT(place.run(std::string("plan ") + name).err, Catch::Contains("did you mean maps/stairs_up.yaml?"));

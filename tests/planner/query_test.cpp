@@ -193,6 +193,13 @@ TEST_CASE("Extreme but finite numbers get a proper answer or an error", "[query]
     }
 }
 
+TEST_CASE("A file of which no line is a question is told so once", "[query][program]") {
+  const surefoot::tests::Workplace place;
+  CHECK_THAT(place.run("query", "surefoot: 1\nname: x\n").err, Catch::Contains("none of the 2 lines is a question"));
+  CHECK(place.run("query", "nonsense\n" + flat).err.empty());
+  CHECK(place.run("query", "nonsense").err.empty());
+}
+
 TEST_CASE("The program answers every line in order and goes on after a bad one", "[query][program]") {
   const surefoot::tests::Workplace place;
   const std::string huge(2u << 20, 'x');

@@ -23,6 +23,13 @@ TEST_CASE("A ceiling given the wrong way round is remarked on, canned scenes are
   CHECK(place.run("plan pipe.yaml --effort 0 -q").err.empty());
   place.write("angle.yaml", with("0.6", "31"));
   CHECK_THAT(place.run("validate angle.yaml").out, Catch::Contains("remark: friction 31 on segment 0 of chain 0"));
+  place.write("large.yaml", with("0.15", "15"));
+  CHECK_THAT(place.run("validate large.yaml").out,
+             Catch::Contains("remark: the radius of gyration, 15 m, is more than"));
+  place.write("stone.yaml", with("[[-1, 0], [4, 0]]",
+                                 "[[-1, 0], [0.9, 0]]\n    - vertices: [[1.3, 0], [1.1, 0]]\n"
+                                 "    - vertices: [[1.5, 0], [4, 0]]"));
+  CHECK_THAT(place.run("validate stone.yaml").out, Catch::Contains("remark: chain 1 runs from right to left and has"));
   const auto canned = place.shell("'" SUREFOOT_BINARY "' validate " SUREFOOT_MAPS "/*.yaml");
   CHECK(canned.out.find("flat.yaml: valid") != std::string::npos);
   CHECK(canned.out.find("remark") == std::string::npos);

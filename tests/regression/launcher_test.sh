@@ -82,6 +82,9 @@ for arguments in --help "test --help" "plan -h"; do
   expect "$arguments tells how to go on" grep -q "surefoot test --sanitize" "$work/out"
 done
 
+(cd "$work" && PATH="$fakes:$PATH" exec sh "$tree/surefoot" --help) >"$work/out" 2>"$work/err" </dev/null
+expect "sh runs it too" grep -q "surefoot test --sanitize" "$work/out"
+
 # A first call on a bare machine.
 echo "cmake installed" >"$installed"
 if ((EUID == 0)); then

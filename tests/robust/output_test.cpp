@@ -69,6 +69,19 @@ TEST_CASE("A reader that goes away ends the program without a word", "[robust]")
   }
 }
 
+TEST_CASE("Standard output named as a file is written to, be it a pipe or a file", "[robust]") {
+  const Workplace place;
+  prepare(place);
+  const std::string run = "'" SUREFOOT_BINARY "' plan scene.yaml -q --effort 0 --format json";
+  for (const char* name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+    INFO(name);
+    REQUIRE(place.shell(run + " -o " + name + " | cat >piped.json").status == 0);
+    CHECK(place.run("check scene.yaml piped.json").status == 0);
+    REQUIRE(place.shell(run + " -o " + name + " >file.json").status == 0);
+    CHECK(place.run("check scene.yaml file.json").status == 0);
+  }
+}
+
 TEST_CASE("Closed standard error changes nothing but what is said there", "[robust]") {
   const Workplace place;
   prepare(place);

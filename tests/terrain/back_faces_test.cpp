@@ -32,6 +32,18 @@ TEST_CASE("What lies behind other ground, too far away or without footholds is n
   CHECK_FALSE(back_face_seen(Terrain({chain({{-1, 0}, {1, 0}}, false), shelf}), 1.5));
 }
 
+TEST_CASE("A chain that faces down over nothing is no ceiling", "[back_faces]") {
+  CHECK_FALSE(ceiling_over_nothing(Terrain({ground})));
+  CHECK_FALSE(ceiling_over_nothing(Terrain({ground, chain({{0.5, 1}, {-0.5, 1}})})));
+  CHECK_FALSE(ceiling_over_nothing(Terrain({ground, chain({{-2, 5}, {-2, -5}})})));    // a wall
+  CHECK_FALSE(ceiling_over_nothing(Terrain({ground, chain({{-2, 5}, {-2.5, -5}})})));  // one that leans
+  CHECK_FALSE(ceiling_over_nothing(Terrain({ground, chain({{6, 0}, {6, 1}, {5, 1}, {5, 2}, {7, 2}})})));  // a hook
+  CHECK(ceiling_over_nothing(Terrain({ground, chain({{6, 0}, {5, 0}})})) == 1);
+  CHECK(ceiling_over_nothing(Terrain({chain({{6, -1}, {6, 0}, {5, 0}, {5, -1}}), ground})) == 0);  // with sides
+  CHECK(ceiling_over_nothing(Terrain({ground, chain({{0.5, -1}, {-0.5, -1}})})) == 1);             // under the ground
+  CHECK(ceiling_over_nothing(Terrain({ground, chain({{6, 1}, {5, 1}}), chain({{6, 0}, {5, 0}})})) == 1);
+}
+
 TEST_CASE("A ray through a vertex does not pass through the solid behind", "[back_faces]") {
   const Chain floor = chain({{-1, 0}, {1, 0}});
   const std::vector<Point> block{{-.5, 1.5}, {.5, 1.5}, {.5, 1}, {0, 1}, {-.5, 1}, {-.5, 1.5}};

@@ -96,7 +96,10 @@ TEST_CASE("every fault of a terrain block has its place and words", "[loader]") 
       {with_vertices("[[0, 0], [4, 0], [4, 4], [0, 0], [0, 4]]"), "4:34: chain 0, segment 2" + crossing_end},
       {with_vertices("[[0, 0], [4, 0]]", "  - vertices: [[5, 5], [2, 2], [2, -1]]"),
        "5:24: chain 1, segment 1" + crossing_end},
-      {with_vertices("[[0, 0], [4, 0]]", "  - vertices: [[4, 0], [5, 0]]"), "5:16: chain 1, segment 0" + crossing_end},
+      {with_vertices("[[0, 0], [4, 0]]", "  - vertices: [[4, 0], [5, 0]]"),
+       "5:16: chain 1, segment 0" + crossing_end +
+           "; ground that touches is one chain (\"segments\" tells where its surface "
+           "changes)"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {1: {friction: 1}}"),
        "5:16: segment index: 1 is out of range; expected 0 to 0"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {-1: {friction: 1}}"),

@@ -1,0 +1,54 @@
+#include "terrain/flow_brackets.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace surefoot::terrain {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\n";
+
+/// The quote that ends the text that begins at `i`, or the end of everything.
+std::size_t end_of_quoted(std::string_view text, std::size_t i) {
+  const char quote = text[i];
+  for (++i; i < text.size() && text[i] != quote; ++i)
+    if (quote == '"' && text[i] == '\\') ++i;
+  return i;
+}
+
+std::string open_one(const Source& source, std::size_t at) {
+  return std::string(source.text[at] == '{' ? "map" : "list") + " that begins at " + source.place_of(at);
+}
+
+}  // namespace
+
+void check_flow_brackets(const Source& source) {
+  const std::string_view text = source.text;
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos || (text[begin] != '{' && text[begin] != '[')) return;
+  std::vector<std::size_t> open;
+  for (std::size_t i = begin; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '#' && i > 0 && blanks.find(text[i - 1]) != std::string_view::npos) {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (c == '"' || c == '\'') {
+      i = end_of_quoted(text, i);
+    } else if (c == '{' || c == '[') {
+      open.push_back(i);
+    } else if (c == '}' || c == ']') {
+      if (open.empty()) return;
+      const char meant = text[open.back()] == '{' ? '}' : ']';
+      if (c != meant)
+        source.fail_at(i, std::string("not valid YAML: '") + c + "' is found where '" + meant + "' must end the " +
+                              open_one(source, open.back()));
+      open.pop_back();
+    }
+  }
+  if (open.empty()) return;
+  const char meant = text[open.back()] == '{' ? '}' : ']';
+  source.fail_at(text.find_last_not_of(blanks) + 1, std::string("not valid YAML: the text ends, but a '") + meant +
+                                                        "' is missing in the " + open_one(source, open.back()));
+}
+
+}  // namespace surefoot::terrain

@@ -1,0 +1,12 @@
+// Brackets of a text that is one list or map on its own (JSON, or YAML written so).
+#pragma once
+
+#include "terrain/source.hpp"
+
+namespace surefoot::terrain {
+
+/// Throws InputError at the first bracket that closes another one than was opened last, or at the end if one is still
+/// open. For texts that the parser has refused: it does not know plain texts that hold quotes.
+void check_flow_brackets(const Source& source);
+
+}  // namespace surefoot::terrain

@@ -30,9 +30,9 @@ std::string subtitle(const Plan& plan, const std::vector<std::string>& faults, c
                      limit_in_words(weakest.limit, planted_legs(feet)));
 }
 
-void title_and_scale(SvgCanvas& canvas, const Page& page, const Plan& plan, const std::vector<std::string>& faults,
-                     const WeakestPlace& weakest) {
-  canvas.text({30, 36}, title_of(plan, !faults.empty()), {.size = 20, .bold = true});
+void title_and_scale(SvgCanvas& canvas, const Page& page, const std::string& title, const Plan& plan,
+                     const std::vector<std::string>& faults, const WeakestPlace& weakest) {
+  canvas.text({30, 36}, title, {.size = 20, .bold = true});
   canvas.text({30, 58}, cut(subtitle(plan, faults, weakest), (page.width - 60) / (faults.empty() ? 6.9 : 7.7)),
               {.size = 13, .colour = faults.empty() ? faint : alarm, .bold = !faults.empty()});
   const double metres = round_length(160 / page.scale);
@@ -84,9 +84,9 @@ void draw_badge(SvgCanvas& canvas, const Vector2d& at, int leg) {
               {.size = 9, .colour = "#fff", .anchor = "middle", .bold = true});
 }
 
-void draw_heading(SvgCanvas& canvas, const Page& page, const Plan& plan, const std::vector<std::string>& faults,
-                  const WeakestPlace& weakest, const TerrainPicture& terrain) {
-  title_and_scale(canvas, page, plan, faults, weakest);
+void draw_heading(SvgCanvas& canvas, const Page& page, const std::string& title, const Plan& plan,
+                  const std::vector<std::string>& faults, const WeakestPlace& weakest, const TerrainPicture& terrain) {
+  title_and_scale(canvas, page, title, plan, faults, weakest);
   legend(canvas, page, weakest, terrain);
 }
 

@@ -28,7 +28,7 @@ constexpr double heading_height = 116;                  // [px] what the page le
 void draw_badge(SvgCanvas& canvas, const Eigen::Vector2d& at, int leg);
 
 /// `faults`: the verifier's, of a plan that it refuses.
-void draw_heading(SvgCanvas& canvas, const Page& page, const Plan& plan, const std::vector<std::string>& faults,
-                  const WeakestPlace& weakest, const TerrainPicture& terrain);
+void draw_heading(SvgCanvas& canvas, const Page& page, const std::string& title, const Plan& plan,
+                  const std::vector<std::string>& faults, const WeakestPlace& weakest, const TerrainPicture& terrain);
 
 }  // namespace surefoot::gaits

@@ -36,6 +36,9 @@ std::string to_yaml(const Plan& plan);  ///< the same tree, valid for readers of
 /// each; the heading says so.
 std::string to_svg(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults = {});
 
+/// The scene alone in the same style: terrain, start feet, goal.
+std::string to_svg(const Scene& scene);
+
 /// A self-contained page that plays the gait in a browser, without network: each step with the motion that the rules
 /// check (lift-off, turn of the shortened leg about the COM, touch-down, COM on its line), the region of COMs that
 /// hold, the safety factor and what limits it. The plan is in it as to_json writes it, without time_s. `faults`: what

@@ -16,6 +16,7 @@ constexpr double tallest_single = 620;  // a journey shown in one row
 constexpr double widest_reach = 240;    // a robot is not drawn larger than this
 constexpr double least_reach = 90;      // below this the journey is broken into rows
 constexpr double reach_in_rows = 100;
+constexpr double level = 0.5;  // [1] least |n_y| of a ceiling: less is a wall that leans
 constexpr int most_rows = 24;  // a longer journey is drawn smaller
 
 void extend(AlignedBox2d& box, const Feet& feet) {
@@ -44,10 +45,13 @@ void show_ceiling(AlignedBox2d& box, const Scene& scene, double x_from, double x
   double lowest = box.max().y() + scene.robot.reach_max;
   bool found = false;
   for (const auto& segment : scene.terrain.segments()) {
-    const double y = std::max(segment.a.y(), segment.b.y());
-    const bool here =
-        std::min(segment.a.x(), segment.b.x()) <= x_to && std::max(segment.a.x(), segment.b.x()) >= x_from;
-    if (!here || !(segment.normal.y() < 0) || y <= box.max().y() || y > lowest) continue;
+    const double first = std::min(segment.a.x(), segment.b.x()), last = std::max(segment.a.x(), segment.b.x());
+    if (first > x_to || last < x_from || !(segment.normal.y() < -level)) continue;
+    const auto height = [&](double x) {
+      return segment.a.y() + (x - segment.a.x()) / (segment.b.x() - segment.a.x()) * (segment.b.y() - segment.a.y());
+    };
+    const double y = std::min(height(std::max(first, x_from)), height(std::min(last, x_to)));
+    if (y <= box.max().y() || y > lowest) continue;
     lowest = y, found = true;
   }
   if (found) box.max().y() = lowest;

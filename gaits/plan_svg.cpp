@@ -39,13 +39,13 @@ class Places {
 
 class PlanPicture {
  public:
-  PlanPicture(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults)
-      : scene_(scene), plan_(plan), faults_(faults), terrain_(scene.terrain), weakest_(weakest_place(plan)),
-        page_(lay_out(scene, plan, heading_height)),
-        canvas_(page_.width, page_.height, title_of(plan, !faults.empty())) {}
+  PlanPicture(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults, std::string title)
+      : scene_(scene), plan_(plan), faults_(faults), title_(std::move(title)), terrain_(scene.terrain),
+        weakest_(weakest_place(plan)), page_(lay_out(scene, plan, heading_height)),
+        canvas_(page_.width, page_.height, title_) {}
 
   std::string draw() {
-    draw_heading(canvas_, page_, plan_, faults_, weakest_, terrain_);
+    draw_heading(canvas_, page_, title_, plan_, faults_, weakest_, terrain_);
     for (std::size_t k = 0; k < page_.rows.size(); ++k) draw_row(page_.rows[k], fmt::format("row{}", k + 1));
     return canvas_.finish();
   }
@@ -228,6 +228,7 @@ class PlanPicture {
   const Scene& scene_;
   const Plan& plan_;
   const std::vector<std::string>& faults_;
+  const std::string title_;
   TerrainPicture terrain_;
   WeakestPlace weakest_;
   Page page_;
@@ -237,7 +238,9 @@ class PlanPicture {
 }  // namespace
 
 std::string to_svg(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults) {
-  return PlanPicture(scene, plan, faults).draw();
+  return PlanPicture(scene, plan, faults, title_of(plan, !faults.empty())).draw();
 }
+
+std::string to_svg(const Scene& scene) { return PlanPicture(scene, Plan{}, {}, scene.name).draw(); }
 
 }  // namespace surefoot::gaits

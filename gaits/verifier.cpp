@@ -38,7 +38,7 @@ class Verifier {
       const std::size_t transfers = std::min(plan_.transfers.size(), plan_.stances.size() - 1);
       for (std::size_t k = 0; k < transfers; ++k, ++result.transfers) {
         check_transfer(k);
-        result.transfers_with_lost_feet += has_lost(k) || !landing_[k];
+        result.transfers_with_lost_feet += has_lost(k) || !landing_[k] || swings_from_lost(k);
       }
       check_start();
       check_goal();
@@ -68,6 +68,8 @@ class Verifier {
 
   /// Whether stance k has a foot that could not be rebuilt.
   bool has_lost(std::size_t k) const;
+  /// Whether the leg placed by transfer k was lifted from a foothold that could not be rebuilt.
+  bool swings_from_lost(std::size_t k) const;
   std::optional<Foot> lifted_from(std::size_t k) const;
   const Point& com(std::size_t k) const { return plan_.stances[k].com; }
   bool can_ask(std::size_t k) const { return com(k).allFinite(); }
@@ -117,6 +119,13 @@ bool Verifier::has_lost(std::size_t k) const {
   for (std::size_t leg = 0; leg < leg_count; ++leg)
     if (plan_.stances[k].feet[leg] && !feet_[k][leg]) return true;
   return false;
+}
+
+bool Verifier::swings_from_lost(std::size_t k) const {
+  if (k == 0 || plan_.transfers[k - 1].lift != plan_.transfers[k].leg) return false;
+  const auto leg = static_cast<std::size_t>(plan_.transfers[k].leg);
+  if (plan_.transfers[k - 1].leg == plan_.transfers[k].leg) return !landing_[k - 1];
+  return leg < leg_count && plan_.stances[k - 1].feet[leg] && !feet_[k - 1][leg];
 }
 
 void Verifier::check_stance(std::size_t k) {

@@ -1,6 +1,7 @@
 // Feet of a plan rebuilt from chain and arc length, and compared with where the plan says they stand.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 
 #include "gaits/verifier_checks.hpp"
@@ -45,8 +46,11 @@ std::optional<Foot> Checks::rebuild(const std::string& place, int leg, const Foo
            segment.index, segment.chain);
     }
     if (stated.segment != segment.index) {
-      note(Rule::foothold, place, "foot {} is said to stand on segment {}, but s = {} is on segment {}", leg + 1,
-           stated.segment, stated.s, segment.index);
+      // The same words at every foot after a vertex that was added.
+      note(Rule::foothold, place,
+           "the segment stated of a foot on chain {} is {} too {} for its position and arc length, which agree",
+           stated.chain, std::abs(std::int64_t{stated.segment} - segment.index),
+           stated.segment > segment.index ? "high" : "low");
     }
     return foot;
   }
@@ -76,11 +80,11 @@ std::optional<Checks::Found> Checks::ground_at(const Foothold& stated) const {
 
 std::string Checks::cause_of(const Foothold& stated, const Found& found) {
   if (found.chain != stated.chain)
-    return fmt::format("what the plan calls chain {} is chain {} now", stated.chain, found.chain);
+    return fmt::format("feet of chain {} lie on chain {} now", stated.chain, found.chain);
   const double shift = found.s - stated.s;
   return fmt::format(
       "chain {} begins {:.6g} m {} than when the plan was made, or is that much {} before these feet (s counts from "
-      "its first vertex)",
+      "its first vertex), unless the plan was edited",
       stated.chain, std::abs(shift), shift > 0 ? "earlier" : "later", shift > 0 ? "longer" : "shorter");
 }
 
@@ -92,21 +96,25 @@ void Checks::tell_lost_feet() {
     Found found;  // where the first one lies
     std::set<double> arc_lengths;
   };
+  constexpr std::size_t most_groups = 64;  // a plan of feet that are all over the place is told foot by foot
   std::vector<Moved> moved;
   std::vector<std::optional<std::size_t>> group_of;  // of each lost foot
   for (const LostFoot& lost : lost_) {
     const std::optional<Found> here = ground_at(*lost.stated);
+    const Foothold& mine = *lost.stated;
+    const auto allowed = [&](double s) { return 4 * slack_ + rounding(mine.position, std::max(std::abs(mine.s), s)); };
     const auto together = [&](const Moved& other) {
-      const Foothold &mine = *lost.stated, &first = *other.first->stated;
+      const Foothold& first = *other.first->stated;
       return first.chain == mine.chain && other.found.chain == here->chain &&
-             std::abs((here->s - mine.s) - (other.found.s - first.s)) <=
-                 4 * slack_ + rounding(mine.position, std::max(std::abs(here->s), std::abs(other.found.s)));
+             std::abs((here->s - mine.s) - (other.found.s - first.s)) <= allowed(std::abs(other.found.s));
     };
-    if (!here) {
+    // Found where it is stated: a vertex.
+    const bool stays = here && here->chain == mine.chain && std::abs(here->s - mine.s) <= allowed(here->s);
+    auto group = here && !stays ? std::find_if(moved.begin(), moved.end(), together) : moved.end();
+    if (!here || stays || (group == moved.end() && moved.size() == most_groups)) {
       group_of.emplace_back();
       continue;
     }
-    auto group = std::find_if(moved.begin(), moved.end(), together);
     if (group == moved.end()) group = moved.insert(moved.end(), {&lost, *here, {}});
     group->arc_lengths.insert(lost.stated->s);
     group_of.emplace_back(static_cast<std::size_t>(group - moved.begin()));

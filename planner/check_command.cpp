@@ -18,12 +18,12 @@ namespace surefoot::planner {
 
 namespace {
 
-/// "; not judged, as feet are not where the plan says: 3 stances and 2 transfers", or nothing.
+/// "; for feet that were not found stability is not judged in 3 of 5 stances and 2 of 4 transfers", or nothing.
 std::string not_judged(const gaits::Verification& verification) {
   const auto counted = [](int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
   const int stances = verification.stances_with_lost_feet, transfers = verification.transfers_with_lost_feet;
   if (stances == 0 && transfers == 0) return "";
-  return fmt::format("; not judged, as feet are not where the plan says: {} of {} and {} of {}", stances,
+  return fmt::format("; for feet that were not found stability is not judged in {} of {} and {} of {}", stances,
                      counted(verification.stances, "stance"), transfers, counted(verification.transfers, "transfer"));
 }
 
@@ -64,6 +64,20 @@ std::string fault_lines(const gaits::Verification& verification) {
   return text;
 }
 
+/// Where a plan was made with another friction than the scene has; "" if nowhere (a plan need not state any).
+std::string other_friction(const gaits::Scene& scene, const gaits::Plan& plan) {
+  const auto differs = [&](const terrain::Foothold& foot) {
+    const auto here = scene.terrain.foothold_at(foot.chain, foot.s);
+    return foot.friction > 0 && here && here->friction != foot.friction;
+  };
+  for (std::size_t k = 0; k < plan.stances.size(); ++k)
+    for (std::size_t leg = 0; leg < gaits::leg_count; ++leg)
+      if (const auto& foot = plan.stances[k].feet[leg]; foot && differs(*foot))
+        return fmt::format("the plan was made with friction {} under foot {} of stance {}, where this scene has {}",
+                           foot->friction, leg + 1, k + 1, scene.terrain.foothold_at(foot->chain, foot->s)->friction);
+  return "";
+}
+
 }  // namespace
 
 int run_check(const CheckArguments& arguments) {
@@ -90,6 +104,7 @@ int run_check(const CheckArguments& arguments) {
   if (!outputs.to_stdout()) write_stdout(fault_lines(verification) + verdict(verification, plan) + "\n");
   if (!verification.holds() && plan.scene != scene.name)
     note(fmt::format("the plan is for a scene named {}, this one is {}", plan.scene, scene.name));
+  if (const std::string other = verification.holds() ? "" : other_friction(scene, plan); !other.empty()) note(other);
   if (const std::string remark = behind_chain_remark(scene, plan); !remark.empty()) note("remark: " + remark);
   outputs.commit();
   return verification.holds() ? exit_success : exit_failure;

@@ -43,7 +43,11 @@ int run_query(const std::string& file, bool stats);
 int run_maps();
 
 /// One line for each scene that is in order, one line for each fault of the others (FaultList::most_kept at most).
-int run_validate(const std::vector<std::string>& scenes);
+struct ValidateArguments {
+  std::vector<std::string> scenes;
+  std::optional<std::string> svg;  ///< of one scene; "-" is stdout, which then holds nothing else
+};
+int run_validate(const ValidateArguments& arguments);
 
 /// Loads a scene: a file, the name of a canned one (canned_scenes.hpp), "-" for stdin.
 gaits::Scene open_scene(const std::string& path);

@@ -51,9 +51,9 @@ struct Arguments {
   RegionArguments region;
   SimulateArguments simulate;
   CheckArguments check;
+  ValidateArguments validate;
   BenchArguments bench;
   std::string query_file = "-";
-  std::vector<std::string> validate_scenes;
   bool query_stats = false;
 };
 
@@ -104,8 +104,10 @@ CLI::App* add_check(CLI::App& app, CheckArguments& a) {
 
 CLI::App* add_validate(CLI::App& app, Arguments& a) {
   CLI::App* validate = app.add_subcommand("validate", "Say everything that is wrong with scenes, without planning");
-  validate->add_option("SCENE", a.validate_scenes, "scene files (YAML) or canned scenes, - for standard input")
+  validate->add_option("SCENE", a.validate.scenes, "scene files (YAML) or canned scenes, - for standard input")
       ->required();
+  validate->add_option("--svg", a.validate.svg, "draw the scene, start feet and goal: SVG file, - for standard output")
+      ->type_name("FILE");
   validate->footer(
       "One line per fault (file:line:column: what), or one line that says what the scene holds.\n"
       "Exit status: 0 all scenes are in order, 2 one is not, or bad usage.\n"
@@ -219,8 +221,8 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
   std::vector<std::string> options{"--help", "--version"};
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const CLI::App* chosen = parsed.empty() ? nullptr : parsed.front();
+  if (count > 1 && std::string_view(words[1]) == "help") return "expected surefoot --help, or surefoot COMMAND --help";
   if (chosen == nullptr && count > 1 && words[1][0] != '-') {
-    if (std::string_view(words[1]) == "help") return "expected surefoot --help, or surefoot COMMAND --help";
     const std::string meant = near_miss(words[1], commands);
     return fmt::format("unknown command '{}'{}; there are {}", words[1],
                        meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
@@ -246,8 +248,10 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
   constexpr std::size_t most = 3;  // words that are named
   const std::vector<std::string> extra = app.remaining(true);
   const std::vector<std::string> named(extra.begin(), extra.begin() + std::min(extra.size(), most));
-  return fmt::format("not expected here: {}{} (surefoot {}--help tells what is)", fmt::join(named, " "),
-                     extra.size() > most ? fmt::format(" and {} more words", extra.size() - most) : "",
+  return fmt::format("not expected here: {}{} (surefoot {}--help tells what is)", fmt::join(named, ", "),
+                     extra.size() <= most       ? ""
+                     : extra.size() == most + 1 ? " and 1 more word"
+                                                : fmt::format(" and {} more words", extra.size() - most),
                      chosen == nullptr ? "" : chosen->get_name() + " ");
 }
 
@@ -286,7 +290,7 @@ int run(int count, char** words) {
   if (bench->parsed()) return run_bench(words + 1);
   if (plan->parsed()) return run_plan(arguments.plan);
   if (check->parsed()) return run_check(arguments.check);
-  if (validate->parsed()) return run_validate(arguments.validate_scenes);
+  if (validate->parsed()) return run_validate(arguments.validate);
   if (region->parsed()) return run_region(arguments.region);
   if (simulate->parsed()) return run_simulate(arguments.simulate);
   if (maps->parsed()) return run_maps();

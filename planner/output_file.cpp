@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 
@@ -35,18 +36,36 @@ int write_and_close(int descriptor, std::string_view text, bool flush) {
   return fault;
 }
 
-/// Where a path leads, through symbolic links, dangling ones too. What is there and no file (a device, a pipe) stays as
-/// it is named: links of /proc, as /dev/stdout is, lead to pipes by names that are none.
+/// The descriptor of this process that a path names, as /dev/stdout (a link to /proc/self/fd/1) and /dev/fd/7 do; -1 if
+/// none. What is open there is written to where it stands, be it a pipe, a socket or a file that others write to as
+/// well.
+int own_descriptor(const std::string& path) {
+  for (const std::string_view folder : {"/proc/self/fd/", "/dev/fd/"}) {
+    if (!path.starts_with(folder)) continue;
+    int number = -1;
+    const char* end = path.data() + path.size();
+    const auto read = std::from_chars(path.data() + folder.size(), end, number);
+    return read.ec == std::errc() && read.ptr == end ? number : -1;
+  }
+  return -1;
+}
+
+/// Where a path leads, through symbolic links, dangling ones too, but not through own_descriptor.
 std::string follow_links(const std::string& path) {
   std::error_code ignored;
-  if (struct stat status{}; ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return path;
   fs::path target = path;
   constexpr int most_links = 40;  // as the kernel's own limit
-  for (int i = 0; i < most_links && fs::is_symlink(target, ignored); ++i) {
+  for (int i = 0; i < most_links && own_descriptor(target.string()) < 0 && fs::is_symlink(target, ignored); ++i) {
     const fs::path link = fs::read_symlink(target, ignored);
     target = link.is_absolute() ? link : target.parent_path() / link;
   }
   return target.string();
+}
+
+/// Opens what is not replaced: a device, a FIFO, a descriptor that is open already.
+int open_to_write(const std::string& target) {
+  const int own = own_descriptor(target);
+  return own < 0 ? ::open(target.c_str(), O_WRONLY | O_CLOEXEC) : ::fcntl(own, F_DUPFD_CLOEXEC, 0);
 }
 
 }  // namespace
@@ -54,7 +73,10 @@ std::string follow_links(const std::string& path) {
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(follow_links(path_)) {
   if (path_.empty()) fail(path_, ENOENT);
   struct stat status {};
-  if (::stat(target_.c_str(), &status) == 0) {
+  if (const int own = own_descriptor(target_); own >= 0) {
+    if (::fcntl(own, F_GETFD) < 0) fail(path_, errno);
+    replaceable_ = false;
+  } else if (::stat(target_.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) fail(path_, EISDIR);
     if (::access(target_.c_str(), W_OK) != 0) fail(path_, errno);
     replaceable_ = S_ISREG(status.st_mode);
@@ -96,7 +118,7 @@ int OutputFile::make_temporary() {
 
 void OutputFile::stage(std::string_view text) {
   drop_temporary();
-  const int descriptor = replaceable_ ? make_temporary() : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+  const int descriptor = replaceable_ ? make_temporary() : open_to_write(target_);
   const int fault = descriptor < 0 ? errno : write_and_close(descriptor, text, replaceable_);
   if (fault != 0) fail(path_, fault);
 }

@@ -171,7 +171,8 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
   if (!file) write_stdout(written(scene, plan, format, arguments.explain, stdout_takes_colour()));
   else note(fmt::format("{}{}{}", gaits::to_string(plan.status), plan.reason.empty() ? "" : ": ", plan.reason));
   if (!untouched.empty() && !(arguments.quiet && !file))
-    note(fmt::format("{} {} not written", fmt::join(untouched, ", "), untouched.size() == 1 ? "is" : "are"));
+    note(fmt::format("{} {} not written{}", fmt::join(untouched, ", "), untouched.size() == 1 ? "is" : "are",
+                     outputs.wants("--svg") ? " (surefoot validate --svg draws the scene)" : ""));
   if (arguments.explain && !options.interrupted()) {
     const std::string help = what_would_help(scene, options, arguments.quiet);
     if (!file && format == "text") write_stdout(help);

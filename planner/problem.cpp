@@ -125,10 +125,13 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   });
   if (nearest != found.end()) choice.nearest.push_back(nearest->second);
   if (found.empty()) {
+    const bool frictional = gaits::asks_frictional(scene.criterion);
     const std::string tried = in_goal.empty() ? "" : fmt::format(" and {} in the goal", goal_samples);
     refuse(fmt::format("no COM was found to stand on feet {} in {} tries{}, refused by {}{}", legs_in_words(stance),
                        com_samples, tried, shares(refused),
-                       gaits::asks_frictional(scene.criterion) ? frictional_needs : ""),
+                       frictional && refused[static_cast<std::size_t>(gaits::Rule::stance_stability)] > 0
+                           ? frictional_needs
+                           : ""),
            false);
   }
 }

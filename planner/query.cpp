@@ -74,7 +74,8 @@ json parse(std::string_view line) {
     if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
     if (const auto column = message.find("column "); column != std::string::npos) message.erase(0, column);
     constexpr std::size_t most = 120;  // characters: the parser quotes what it read
-    const bool cut = message.find("unexpected end of input") != std::string::npos;
+    const auto* where = dynamic_cast<const json::parse_error*>(&fault);
+    const bool cut = where != nullptr && where->byte > line.size();
     throw BadLine("not JSON: " + terrain::shown(message, most) + (cut ? " (a question stands on one line)" : ""));
   }
 }
@@ -249,17 +250,15 @@ void write_error(std::string& out, const std::string& message, std::size_t numbe
 
 }  // namespace
 
-bool answer_query(std::string& out, std::string_view line, std::size_t number) {
+void answer_query(std::string& out, std::string_view line, std::size_t number) {
   const std::size_t begin = out.size();
   try {
     const Question question = read_question(line);
     const RobustOracle oracle(question.contacts, question.rho, question.box);
     write(out, question.com_to ? ask_line(oracle, question) : ask_point(oracle, question));
-    return true;
   } catch (const std::exception& fault) {
     out.resize(begin);
     write_error(out, fault.what(), number);
-    return false;
   }
 }
 

@@ -13,9 +13,8 @@ namespace surefoot::planner {
 /// Longest line that is read [bytes]; three contacts take about 500.
 constexpr std::size_t longest_query_line = 1u << 20;
 
-/// Appends the answer to one line, without a line feed. `number` counts from 1. Never throws on bad input: false if the
-/// answer is an error.
-bool answer_query(std::string& out, std::string_view line, std::size_t number);
+/// Appends the answer to one line, without a line feed. `number` counts from 1. Never throws on bad input.
+void answer_query(std::string& out, std::string_view line, std::size_t number);
 /// The answer to a line of more than longest_query_line bytes.
 void answer_too_long(std::string& out, std::size_t number);
 

@@ -1,6 +1,7 @@
 // What is legal but most likely not meant.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "planner/commands.hpp"
@@ -10,12 +11,15 @@ namespace surefoot::planner {
 
 namespace {
 
-std::string ceiling_remark(const gaits::Scene& scene) {
-  const auto chain = terrain::ceiling_over_nothing(scene.terrain);
-  if (!chain) return "";
+std::string upside_down_remark(const gaits::Scene& scene) {
+  const auto& robot = scene.robot;
+  const auto chain = terrain::ground_upside_down(scene.terrain, 2 * robot.reach_max, robot.reach_min);
+  const auto stands = [&](const auto& foot) { return foot && chain && foot->chain == *chain; };
+  const auto& feet = scene.start.feet;
+  if (!chain || std::any_of(feet.begin(), feet.end(), stands)) return "";
   return fmt::format(
-      "chain {} runs from right to left and has nothing below it: is it ground given the wrong way round? As it is no "
-      "foot can stand on it; ground runs from left to right, a ceiling from right to left",
+      "chain {} runs from right to left, with no ground below it and other ground beside it: is it given the wrong way "
+      "round? Free space is on the left of a chain: ground runs from left to right, a ceiling from right to left",
       *chain);
 }
 
@@ -32,7 +36,7 @@ std::string scene_remark(const gaits::Scene& scene) {
         "the radius of gyration, {:.6g} m, is more than the greatest reach, {:.6g} m: are both in metres?",
         scene.robot.radius_of_gyration, scene.robot.reach_max);
   const auto seen = terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max);
-  if (!seen) return ceiling_remark(scene);
+  if (!seen) return upside_down_remark(scene);
   return fmt::format(
       "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round? Free space "
       "is on the left of a chain: ground runs from left to right, a ceiling from right to left",

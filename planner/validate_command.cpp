@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <optional>
 
+#include "gaits/plan_io.hpp"
+#include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
+#include "planner/figure_outputs.hpp"
 #include "planner/infeasibility.hpp"
 #include "planner/problem.hpp"
 #include "planner/start_faults.hpp"
@@ -47,33 +51,40 @@ std::string start_summary(const gaits::Scene& scene, terrain::FaultList& faults)
   return "no stable start was found: " + choice.fault;
 }
 
-/// Whether it is in order.
-bool validate(const std::string& path, std::string& report) {
+/// The scene if it is in order.
+std::optional<gaits::Scene> validate(const std::string& path, std::string& report) {
   terrain::FaultList faults;
-  const auto scene = open_scene(path, faults);
+  auto scene = open_scene(path, faults);
   const std::string start = scene ? start_summary(*scene, faults) : "";
   for (const terrain::InputError& fault : faults.kept()) report += one_line(fault.what()) + '\n';
   const std::string name = path == "-" ? "<stdin>" : one_line(path);
   if (const std::size_t kept = faults.kept().size(); kept < faults.count())
     fmt::format_to(std::back_inserter(report), "{}: and at least {} more\n", name, faults.count() - kept);
-  if (faults.count() > 0) return false;
+  if (faults.count() > 0) return std::nullopt;
   fmt::format_to(std::back_inserter(report), "{}: valid: {}, {}, {}\n", name, one_line(scene->name),
                  ground_summary(scene->terrain), start);
   if (const std::string remark = scene_remark(*scene); !remark.empty())
     fmt::format_to(std::back_inserter(report), "{}: remark: {}\n", name, remark);
-  return true;
+  return scene;
 }
 
 }  // namespace
 
-int run_validate(const std::vector<std::string>& scenes) {
+int run_validate(const ValidateArguments& arguments) {
+  const std::vector<std::string>& scenes = arguments.scenes;
   if (std::count(scenes.begin(), scenes.end(), "-") > 1)
     throw terrain::InputError("only one scene can be read from standard input");
+  if (arguments.svg && scenes.size() > 1) throw terrain::InputError("--svg: only of one scene");
+  FigureOutputs picture({{"--svg", arguments.svg}}, scene_file(scenes.front()));
   bool all = true;
   for (const std::string& path : scenes) {
     std::string report;
-    all = validate(path, report) && all;
-    write_stdout(report);
+    const auto scene = validate(path, report);
+    all = scene && all;
+    const bool draws = scene && picture.wants("--svg");
+    if (draws) picture.put("--svg", gaits::to_svg(*scene));
+    if (!draws || !picture.to_stdout()) write_stdout(report);
+    if (draws) picture.commit();
   }
   return all ? exit_success : exit_bad_input;
 }

@@ -1,9 +1,13 @@
 #include "terrain/back_faces.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace surefoot::terrain {
 
@@ -55,25 +59,43 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within) {
   return std::nullopt;
 }
 
-std::optional<int> ceiling_over_nothing(const Terrain& terrain) {
-  const auto& segments = terrain.segments();
-  std::size_t rays_left = rays_of(terrain, segments.size());
-  const auto over_something = [&](const Segment& ceiling) {
-    const Point middle = 0.5 * (ceiling.a + ceiling.b);
-    return std::any_of(segments.begin(), segments.end(), [&](const Segment& other) {
-      return other.chain != ceiling.chain && other.normal.y() > 0 && std::isfinite(meeting(middle, {0, -1}, other));
-    });
-  };
-  for (auto first = segments.begin(); first != segments.end() && rays_left > 0;) {
-    const auto last = std::find_if(first, segments.end(), [&](const Segment& s) { return s.chain != first->chain; });
-    const bool faces_up = std::any_of(first, last, [](const Segment& s) { return s.normal.y() > 0; });
-    bool down = false, over = false;
-    for (auto s = first; s != last && !faces_up && !over && rays_left > 0; ++s) {
-      if (!(s->normal.y() < -level)) continue;
-      down = true, over = over_something(*s), --rays_left;
+namespace {
+
+struct ChainBox {
+  Eigen::AlignedBox2d extent;
+  bool faces_up = false, faces_down = false;
+};
+
+std::vector<ChainBox> boxes_of_chains(const Terrain& terrain) {
+  std::vector<ChainBox> boxes(static_cast<std::size_t>(terrain.chain_count()));
+  for (const Segment& s : terrain.segments()) {
+    ChainBox& box = boxes[static_cast<std::size_t>(s.chain)];
+    box.extent.extend(s.a).extend(s.b);
+    box.faces_up = box.faces_up || s.normal.y() > 0;
+    box.faces_down = box.faces_down || s.normal.y() < -level;
+  }
+  return boxes;
+}
+
+}  // namespace
+
+std::optional<int> ground_upside_down(const Terrain& terrain, double near, double room) {
+  const auto boxes = boxes_of_chains(terrain);
+  std::size_t tests = 0;
+  for (std::size_t chain = 0; chain < boxes.size(); ++chain) {
+    const ChainBox& box = boxes[chain];
+    if (box.faces_up || !box.faces_down) continue;
+    bool below = false, beside = false;
+    for (const Segment& other : terrain.segments()) {
+      if (++tests > most_tests) return std::nullopt;
+      if (!(other.normal.y() > 0)) continue;  // no ground; the chain itself has none
+      const double from = std::min(other.a.x(), other.b.x()), to = std::max(other.a.x(), other.b.x());
+      const double low = std::min(other.a.y(), other.b.y()), high = std::max(other.a.y(), other.b.y());
+      const auto& [least, most] = std::pair(box.extent.min(), box.extent.max());
+      below = below || (from < most.x() && to > least.x() && low < most.y());
+      beside = beside || (from < most.x() + near && to > least.x() - near && high + room >= most.y());
     }
-    if (down && !over && rays_left > 0) return first->chain;
-    first = last;
+    if (beside && !below) return static_cast<int>(chain);
   }
   return std::nullopt;
 }

@@ -22,9 +22,9 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within);
 /// The first met by rays of that length straight up and down from the points; of many points an even choice is asked.
 std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within);
 
-/// The first chain that faces down somewhere (leaning walls aside) and up nowhere, and has no other chain that faces up
-/// below the middle of any such segment: what cannot be a ceiling of anything. Of very large terrains not all chains
-/// are asked.
-std::optional<int> ceiling_over_nothing(const Terrain& terrain);
+/// The first chain that is most likely ground given the wrong way round: it faces down somewhere (leaning walls aside)
+/// and up nowhere, no ground lies below it, and ground within `near` [m] beside it is at most `room` [m] lower, so that
+/// it is no ceiling of anything. Nothing where there are too many chains to ask.
+std::optional<int> ground_upside_down(const Terrain& terrain, double near, double room);
 
 }  // namespace surefoot::terrain

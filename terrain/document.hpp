@@ -117,7 +117,9 @@ class Node {
   std::string list_advice(std::size_t n) const;  // for messages
   std::string_view home() const;                 // where this key belongs, if that is known
   bool is_integer() const;
-  std::string_view plain_scalar(std::string_view what, std::string_view expected) const;
+  /// `is_one`: whether a quoted text would be what is expected without its quotes.
+  std::string_view plain_scalar(std::string_view what, std::string_view expected,
+                                bool (*is_one)(std::string_view)) const;
 
   std::variant<std::monostate, std::string_view, Items, Entries> content_;  // in the order of Kind
   const Source* source_ = nullptr;

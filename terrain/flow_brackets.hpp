@@ -6,7 +6,7 @@
 namespace surefoot::terrain {
 
 /// Throws InputError at the first bracket that closes another one than was opened last, or at the end if one is still
-/// open. For texts that the parser has refused: it does not know plain texts that hold quotes.
+/// open. For texts that the parser has refused.
 void check_flow_brackets(const Source& source);
 
 }  // namespace surefoot::terrain

@@ -82,17 +82,16 @@ void Node::refuse(std::string_view what, std::string_view expected) const {
   fail(std::string(what) + ": " + described() + "; expected " + std::string(expected));
 }
 
-std::string_view Node::plain_scalar(std::string_view what, std::string_view expected) const {
+std::string_view Node::plain_scalar(std::string_view what, std::string_view expected,
+                                    bool (*is_one)(std::string_view)) const {
   if (kind() != Kind::scalar) refuse(what, expected);
   const std::string_view value = std::get<std::string_view>(content_);
-  const bool truth = value == "true" || value == "false", truth_expected = expected == true_or_false;
-  if (quoted_ && (truth_expected ? truth : is_number(value))) refuse(what, std::string(expected) + ", without quotes");
-  if (quoted_) refuse(what, expected);
+  if (quoted_) refuse(what, std::string(expected) + (is_one(value) ? ", without quotes" : ""));
   return value;
 }
 
 double Node::number(std::string_view what) const {
-  const std::string_view text = plain_scalar(what, "a number");
+  const std::string_view text = plain_scalar(what, "a number", is_number);
   const auto fail_with = [&](const std::string& reason) {
     fail(std::string(what) + ": " + shown(text) + " " + reason);
   };
@@ -120,7 +119,7 @@ double Node::not_negative(std::string_view what) const {
 }
 
 std::int64_t Node::integer(std::string_view what) const {
-  const std::string_view text = plain_scalar(what, "an integer");
+  const std::string_view text = plain_scalar(what, "an integer", is_number);
   const NumberForm form = form_of(without_sign(text));
   if (form == NumberForm::leading_zero) {
     fail(std::string(what) + ": " + shown(text) + " has a leading zero; expected an integer without");
@@ -135,7 +134,8 @@ std::int64_t Node::integer(std::string_view what) const {
 }
 
 bool Node::boolean(std::string_view what) const {
-  const std::string_view text = plain_scalar(what, true_or_false);
+  const auto is_boolean = [](std::string_view text) { return text == "true" || text == "false"; };
+  const std::string_view text = plain_scalar(what, true_or_false, is_boolean);
   if (text == "true") return true;
   if (text != "false") refuse(what, true_or_false);
   return false;

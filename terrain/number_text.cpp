@@ -66,7 +66,7 @@ std::string number_meant_by(std::string_view text) {
   if (number == 0 || !unit || rest == "e" || rest == "E" || std::any_of(rest.begin(), rest.end(), is_digit)) {
     return "a number such as 0.25 or 1e-3";
   }
-  if (rest == "%") return "a share, not per cent: 0.1 for 10 %";
+  if (rest == "%") return "the number alone (a share of 10 % is 0.1)";
   return "the number alone, without a unit (metres, kilograms, seconds)";
 }
 

@@ -317,8 +317,17 @@ TEST_CASE("a ceiling within reach of the plan is in the picture, a higher one is
     return read_xml_text(to_svg(scene, plan_by_hand(scene))).get<double>("svg.<xmlattr>.height");
   };
   const double without = page_height({});
-  CHECK(page_height({chain({{5, 1.2}, {-5, 1.2}})}) > without + 50);  // [px]: 0.7 m above the COM
-  CHECK(page_height({chain({{5, 1.5}, {-5, 1.5}})}) == without);      // beyond reach 0.9
+  CHECK(page_height({chain({{5, 1.2}, {-5, 1.2}})}) > without + 50);   // [px]: 0.7 m above the COM
+  CHECK(page_height({chain({{405, 42}, {-5, 0.9}})}) > without + 50);  // rises slowly
+  CHECK(page_height({chain({{5, 1.5}, {-5, 1.5}})}) == without);       // beyond reach 0.9
+  CHECK(page_height({chain({{0.5, 1.2}, {0.45, 0.1}})}) == without);   // a wall that leans
+  const auto rows_height = [](std::vector<surefoot::terrain::Chain> more) {
+    const Scene ground = long_ground();
+    more.insert(more.begin(), chain({{-120, 0}, {120, 0}}));
+    return read_xml_text(to_svg(scene_on(std::move(more)), long_walk(ground, 280, 0)))
+        .get<double>("svg.<xmlattr>.height");
+  };
+  CHECK(rows_height({chain({{120, 1.2}, {-120, 1.2}})}) > rows_height({}) + 50);
 }
 
 TEST_CASE("no locale changes what is written", "[plan_text][plan_svg][plan_io]") {

@@ -9,6 +9,7 @@
 
 using namespace surefoot;
 using namespace surefoot::gaits;
+using surefoot::gaits::testing::all_faults;
 using surefoot::gaits::testing::chain;
 using surefoot::gaits::testing::foot_at;
 using surefoot::gaits::testing::level_factor;
@@ -149,7 +150,8 @@ TEST_CASE("feet stand where the scene lets them, and where the plan says", "[ver
     require_only(verify(scene, plan), Rule::foothold, "stance 2", "foot 3 is said to stand at");
     plan = plan_by_hand(scene);
     plan.stances[1].feet[2]->segment = 1;
-    require_only(verify(scene, plan), Rule::foothold, "stance 2", "foot 3 is said to stand on segment 1");
+    require_only(verify(scene, plan), Rule::foothold, "stance 2",
+                 "the segment stated of a foot on chain 0 is 1 too high");
   }
   SECTION("normals and friction in a plan are not believed") {
     plan.stances[0].feet[0]->normal = {1, 0};
@@ -175,7 +177,7 @@ TEST_CASE("what has moved the terrain away from feet is told, and these are not 
     scene.start.feet = {scene.terrain.foothold_at(1, 4.8), scene.terrain.foothold_at(1, 5.2), std::nullopt};
     const auto found = verify(scene, plan);
     REQUIRE(found.faults.size() == 1);
-    require_only(found, Rule::foothold, "plan", "what the plan calls chain 0 is chain 1 now");
+    require_only(found, Rule::foothold, "plan", "feet of chain 0 lie on chain 1 now");
   }
   SECTION("a detour before the later feet: the others are judged") {
     const auto found = verify(scene_on({chain({{-5, 0}, {0.3, 0}, {0.35, -0.5}, {0.4, 0}, {5, 0}})}), plan);
@@ -184,6 +186,17 @@ TEST_CASE("what has moved the terrain away from feet is told, and these are not 
     require_only(found, Rule::foothold, "plan", "2 footholds lie on the ground");
     CHECK(found.stances_with_lost_feet == 2);
     CHECK(found.transfers_with_lost_feet == 2);
+  }
+  SECTION("vertices under feet: no chain has moved") {
+    const auto found = verify(scene_on({chain({{-5, 0}, {0.6, 0}, {1, 0}, {5, 0}})}), plan);
+    require_fault(found, Rule::foothold, "stance 2", "foot 3 stands on a vertex of chain 0 (s = 5.6)");
+    require_fault(found, Rule::foothold, "stance 3", "foot 1 stands on a vertex of chain 0 (s = 6)");
+    CHECK(all_faults(found).find("plan: foothold") == std::string::npos);
+  }
+  SECTION("a lost foot takes the swing from it along") {
+    Plan lost = plan;
+    lost.stances[0].feet[0]->position.y() = 0.5;  // lifted in transfer 1, placed in transfer 2
+    CHECK(verify(scene_on(level_ground_and()), lost).transfers_with_lost_feet == 2);
   }
   SECTION("ground that went down: each foot is named") {
     const auto found = verify(scene_on({chain({{-5, -0.5}, {5, -0.5}})}), plan);

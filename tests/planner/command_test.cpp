@@ -174,7 +174,7 @@ TEST_CASE("Feet that have lost their ground are told once each, and nothing that
   CHECK(said.size() > 2);
   CHECK(std::adjacent_find(said.begin(), said.end()) == said.end());
   CHECK_THAT(run.out, Catch::Contains("more places)"));
-  CHECK_THAT(run.out, Catch::Contains("not judged, as feet are not where the plan says: "));
+  CHECK_THAT(run.out, Catch::Contains("; for feet that were not found stability is not judged in "));
 }
 
 TEST_CASE("A chain that begins elsewhere than when the plan was made is named, not all feet on it", "[command]") {
@@ -186,7 +186,7 @@ TEST_CASE("A chain that begins elsewhere than when the plan was made is named, n
   CHECK(run.status == 1);
   CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 2);
   CHECK_THAT(run.out, Catch::StartsWith("plan: foothold: chain 0 begins 1 m earlier than when the plan was made"));
-  CHECK_THAT(run.out, Catch::Contains("\ndoes not hold: 1 fault; not judged"));
+  CHECK_THAT(run.out, Catch::Contains("\ndoes not hold: 1 fault; for feet that were not found"));
 }
 
 TEST_CASE("Where the scene has become safer only what the plan states is wrong, and check says so", "[command]") {
@@ -202,6 +202,16 @@ TEST_CASE("Where the scene has become safer only what the plan states is wrong, 
   CHECK(std::stod(run.out.substr(at + 20)) == Approx(2 * before).epsilon(1e-5));
   place.write("harder.yaml", with("kappa: 0.1", "kappa: 0.59"));
   CHECK_THAT(place.run("check harder.yaml plan.json").out, !Catch::Contains("every stance"));
+}
+
+TEST_CASE("Where friction is another one than the plan was made with, check says where", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  REQUIRE(place.run("plan scene.yaml --effort 0 -o plan.json").status == 0);
+  place.write("loose.yaml", with("friction: 0.6", "friction: 0.11"));
+  const auto run = place.run("check loose.yaml plan.json");
+  CHECK(run.status == 1);
+  CHECK_THAT(run.err, Catch::Contains("made with friction 0.6 under foot 1 of stance 1, where this scene has 0.11"));
 }
 
 TEST_CASE("Without a plan the status says so and no file is touched", "[command]") {
@@ -335,11 +345,11 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --sede 3").err, Catch::Contains("did you mean --seed?"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --time 3").err, Catch::Contains("did you mean --time-limit?"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml -svg a.svg").err, Catch::Contains("did you mean --svg?"));
-  CHECK_THAT(place.run("help").err, Catch::Contains("surefoot --help"));
+  for (const char* words : {"help", "help plan"}) CHECK_THAT(place.run(words).err, Catch::Contains("surefoot --help"));
   const auto many = place.run("plan a.yaml b.yaml c.yaml d.yaml e.yaml");
   CHECK(many.status == 2);
   CHECK_THAT(many.err,
-             Catch::Contains("not expected here: b.yaml c.yaml d.yaml and 1 more words (surefoot plan --help"));
+             Catch::Contains("not expected here: b.yaml, c.yaml, d.yaml and 1 more word (surefoot plan --help"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --planner RTT").err, Catch::Contains("did you mean \"RRT\"?"));
   for (const char* name : {"stairs_up.yaml", "maps/stairs_pu.yaml", "stairsup"})
     CHECK_THAT(place.run(std::string("plan ") + name).err, Catch::Contains("did you mean maps/stairs_up.yaml?"));

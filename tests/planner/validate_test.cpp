@@ -29,7 +29,7 @@ TEST_CASE("A ceiling given the wrong way round is remarked on, canned scenes are
   place.write("stone.yaml", with("[[-1, 0], [4, 0]]",
                                  "[[-1, 0], [0.9, 0]]\n    - vertices: [[1.3, 0], [1.1, 0]]\n"
                                  "    - vertices: [[1.5, 0], [4, 0]]"));
-  CHECK_THAT(place.run("validate stone.yaml").out, Catch::Contains("remark: chain 1 runs from right to left and has"));
+  CHECK_THAT(place.run("validate stone.yaml").out, Catch::Contains("remark: chain 1 runs from right to left, with no"));
   const auto canned = place.shell("'" SUREFOOT_BINARY "' validate " SUREFOOT_MAPS "/*.yaml");
   CHECK(canned.out.find("flat.yaml: valid") != std::string::npos);
   CHECK(canned.out.find("remark") == std::string::npos);
@@ -63,6 +63,25 @@ TEST_CASE("A scene in order is summed up on one line, status 0", "[validate]") {
   const auto from_stdin = place.run("validate -", flat_scene);
   CHECK(from_stdin.status == 0);
   CHECK(from_stdin.out.starts_with("<stdin>: valid: "));
+}
+
+TEST_CASE("A scene in order is drawn on request, with or without a plan for it", "[validate]") {
+  const Workplace place;
+  place.write("gap.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [0.6, 0]]\n    - vertices: [[3.4, 0], [4, 0]]"));
+  const auto run = place.run("validate gap.yaml --svg gap.svg");
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Catch::StartsWith("gap.yaml: valid: "));
+  const std::string svg = place.read("gap.svg");
+  CHECK_THAT(svg, Catch::Contains("<title>gap</title>") && Catch::Contains(">goal</text>"));
+  CHECK(place.run("validate gap.yaml --svg -").out == svg);
+  const auto files = place.count();
+  CHECK(place.run("validate gap.yaml gap.yaml --svg two.svg").status == 2);
+  CHECK(place.run("validate gap.yaml --svg gap.yaml").status == 2);
+  place.write("gap.yaml", with("0.6", "-1"));
+  const auto bad = place.run("validate gap.yaml --svg bad.svg");
+  CHECK(bad.status == 2);
+  CHECK_THAT(bad.out, Catch::Contains("friction: -1 is negative"));
+  CHECK(place.count() == files);
 }
 
 TEST_CASE("All faults of all scenes are listed by place, status 2", "[validate]") {

@@ -69,7 +69,7 @@ TEST_CASE("A reader that goes away ends the program without a word", "[robust]")
   }
 }
 
-TEST_CASE("Standard output named as a file is written to, be it a pipe or a file", "[robust]") {
+TEST_CASE("Standard output named as a file is written to where it stands, be it a pipe or a file", "[robust]") {
   const Workplace place;
   prepare(place);
   const std::string run = "'" SUREFOOT_BINARY "' plan scene.yaml -q --effort 0 --format json";
@@ -77,8 +77,11 @@ TEST_CASE("Standard output named as a file is written to, be it a pipe or a file
     INFO(name);
     REQUIRE(place.shell(run + " -o " + name + " | cat >piped.json").status == 0);
     CHECK(place.run("check scene.yaml piped.json").status == 0);
-    REQUIRE(place.shell(run + " -o " + name + " >file.json").status == 0);
+    REQUIRE(place.shell("{ echo '# begun'; " + run + " -o " + name + "; echo '# done'; } >file.json").status == 0);
+    CHECK_THAT(place.read("file.json"), Catch::StartsWith("# begun\n{") && Catch::EndsWith("}\n# done\n"));
     CHECK(place.run("check scene.yaml file.json").status == 0);
+    REQUIRE(place.shell(": >file.json; exec 3>file.json; rm file.json; " + run + " -o /dev/fd/3").status == 0);
+    CHECK(place.shell("ls").out.find("deleted") == std::string::npos);
   }
 }
 

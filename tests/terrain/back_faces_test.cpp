@@ -32,16 +32,22 @@ TEST_CASE("What lies behind other ground, too far away or without footholds is n
   CHECK_FALSE(back_face_seen(Terrain({chain({{-1, 0}, {1, 0}}, false), shelf}), 1.5));
 }
 
-TEST_CASE("A chain that faces down over nothing is no ceiling", "[back_faces]") {
-  CHECK_FALSE(ceiling_over_nothing(Terrain({ground})));
-  CHECK_FALSE(ceiling_over_nothing(Terrain({ground, chain({{0.5, 1}, {-0.5, 1}})})));
-  CHECK_FALSE(ceiling_over_nothing(Terrain({ground, chain({{-2, 5}, {-2, -5}})})));    // a wall
-  CHECK_FALSE(ceiling_over_nothing(Terrain({ground, chain({{-2, 5}, {-2.5, -5}})})));  // one that leans
-  CHECK_FALSE(ceiling_over_nothing(Terrain({ground, chain({{6, 0}, {6, 1}, {5, 1}, {5, 2}, {7, 2}})})));  // a hook
-  CHECK(ceiling_over_nothing(Terrain({ground, chain({{6, 0}, {5, 0}})})) == 1);
-  CHECK(ceiling_over_nothing(Terrain({chain({{6, -1}, {6, 0}, {5, 0}, {5, -1}}), ground})) == 0);  // with sides
-  CHECK(ceiling_over_nothing(Terrain({ground, chain({{0.5, -1}, {-0.5, -1}})})) == 1);             // under the ground
-  CHECK(ceiling_over_nothing(Terrain({ground, chain({{6, 1}, {5, 1}}), chain({{6, 0}, {5, 0}})})) == 1);
+TEST_CASE("Ground given the wrong way round is told from ceilings", "[back_faces]") {
+  const auto told = [](std::vector<Chain> more) {
+    more.insert(more.begin(), {ground, chain({{4.6, 0}, {8, 0}})});  // up to x = 4, and on from 4.6
+    return ground_upside_down(Terrain(std::move(more)), 2, 0.2);
+  };
+  CHECK(told({chain({{4.4, 0}, {4.2, 0}})}) == 2);                            // a stepping stone
+  CHECK(told({chain({{4.4, -1}, {4.4, 0.1}, {4.2, 0.1}, {4.2, -1}})}) == 2);  // with sides
+  CHECK(told({chain({{5, 1}, {3, 1}}), chain({{4.4, 0}, {4.2, 0}})}) == 3);   // under a ceiling
+  CHECK_FALSE(told({}));
+  CHECK_FALSE(told({chain({{4.2, 0}, {4.4, 0}})}));     // as it should be
+  CHECK_FALSE(told({chain({{7, 1.5}, {-2.4, 1.5}})}));  // a ceiling over all, its middle over no gap
+  CHECK_FALSE(told({chain({{4.4, 1}, {4.2, 1}})}));     // a beam over the gap
+  CHECK_FALSE(told({chain({{4.55, 1}, {4.55, -5}}), chain({{4.05, -5}, {4.05, 1}})}));  // walls
+  CHECK_FALSE(told({chain({{4.5, 1}, {4.4, -5}})}));                                    // one that leans
+  CHECK_FALSE(told({chain({{20, 0}, {19, 0}})}));                                       // far from all ground
+  CHECK_FALSE(ground_upside_down(Terrain({chain({{1, 0}, {0, 0}})}), 2, 0.2));          // no ground at all
 }
 
 TEST_CASE("A ray through a vertex does not pass through the solid behind", "[back_faces]") {

@@ -115,6 +115,9 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
        "f.yaml:2:15: not valid YAML: the text ends, but a '}' is missing in the map that begins at f.yaml:1:1"},
       {"{\"x\": [{\"y\": -0.5]}",
        "f.yaml:1:18: not valid YAML: ']' is found where '}' must end the map that begins at f.yaml:1:8"},
+      {"# c\n--- {n: it's, x: [1, 2}\n",
+       "f.yaml:2:23: not valid YAML: '}' is found where ']' must end the list that begins at f.yaml:2:18"},
+      {"{n: it's, v: [[0, 0] [1, 0]]}\n", "]' or a comma missing in the list that begins at f.yaml:1:14?"},
       {"{\"x\": [1, 2}}",
        "f.yaml:1:12: not valid YAML: '}' is found where ']' must end the list that begins at f.yaml:1:7"},
       {"r:\n  a: 1\n    b: 2\n", "keys of one map, or dashes of one list, begin in the same column"},
@@ -151,7 +154,7 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
 TEST_CASE("a number in the dress of another convention is told how to be written", "[document]") {
   const std::string unit =
       "is not a finite decimal number; expected the number alone, without a unit (metres, kilograms, seconds)";
-  const std::string share = "is not a finite decimal number; expected a share, not per cent: 0.1 for 10 %";
+  const std::string share = "is not a finite decimal number; expected the number alone (a share of 10 % is 0.1)";
   const std::string point = "is not a finite decimal number; expected a point, no comma: ";
   const std::string minus = "is not a finite decimal number; expected a plain minus sign, as in -0.25";
   const std::vector<Refusal> refusals{{"0,5", point + "0.5"}, {"-12,25", point + "-12.25"},

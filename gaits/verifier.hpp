@@ -37,8 +37,9 @@ struct Verification {
   std::vector<Fault> faults;       ///< empty: the plan holds
   int stances = 0, transfers = 0;  ///< how many were checked
   double least_factor = 0;         ///< found here, of all that could be asked
-  /// Of these, how many have a foot that stands nowhere or not where the plan says (a fault names it, or what has come
-  /// between all of them and the ground): stability was not asked there, nor its reach, leg and swing.
+  /// How many of the stances and transfers have a foot that stands nowhere or not where the plan says (a fault names
+  /// it, or what has come between all of them and the ground): stability was not asked there, nor its reach, leg and
+  /// swing.
   int stances_with_lost_feet = 0, transfers_with_lost_feet = 0;
   bool holds() const { return faults.empty(); }
 };

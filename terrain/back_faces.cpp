@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace surefoot::terrain {
@@ -85,13 +84,13 @@ std::optional<int> ground_upside_down(const Terrain& terrain, double near, doubl
   for (std::size_t chain = 0; chain < boxes.size(); ++chain) {
     const ChainBox& box = boxes[chain];
     if (box.faces_up || !box.faces_down) continue;
+    const Point least = box.extent.min(), most = box.extent.max();
     bool below = false, beside = false;
     for (const Segment& other : terrain.segments()) {
       if (++tests > most_tests) return std::nullopt;
       if (!(other.normal.y() > 0)) continue;  // no ground; the chain itself has none
       const double from = std::min(other.a.x(), other.b.x()), to = std::max(other.a.x(), other.b.x());
       const double low = std::min(other.a.y(), other.b.y()), high = std::max(other.a.y(), other.b.y());
-      const auto& [least, most] = std::pair(box.extent.min(), box.extent.max());
       below = below || (from < most.x() && to > least.x() && low < most.y());
       beside = beside || (from < most.x() + near && to > least.x() - near && high + room >= most.y());
     }

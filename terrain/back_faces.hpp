@@ -1,5 +1,5 @@
 // Where ground looks at the back of other ground: legal (a thin shelf over a path), but most often a ceiling whose
-// vertices run the wrong way, so that its solid fills the space below.
+// vertices run the wrong way, so that its solid fills the space below. And chains that are ground the wrong way round.
 #pragma once
 
 #include <optional>

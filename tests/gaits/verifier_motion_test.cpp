@@ -8,15 +8,7 @@
 
 using namespace surefoot;
 using namespace surefoot::gaits;
-using surefoot::gaits::testing::chain;
-using surefoot::gaits::testing::foot_at;
-using surefoot::gaits::testing::level_factor;
-using surefoot::gaits::testing::level_ground_and;
-using surefoot::gaits::testing::plan_by_hand;
-using surefoot::gaits::testing::require_fault;
-using surefoot::gaits::testing::require_holds;
-using surefoot::gaits::testing::require_only;
-using surefoot::gaits::testing::scene_on;
+using namespace surefoot::gaits::testing;
 
 TEST_CASE("a COM out of reach is rejected with leg, distance and place on the line", "[verifier]") {
   Scene scene = scene_on(level_ground_and());

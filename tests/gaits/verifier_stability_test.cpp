@@ -9,14 +9,7 @@
 
 using namespace surefoot;
 using namespace surefoot::gaits;
-using surefoot::gaits::testing::chain;
-using surefoot::gaits::testing::level_factor;
-using surefoot::gaits::testing::level_ground_and;
-using surefoot::gaits::testing::plan_by_hand;
-using surefoot::gaits::testing::require_fault;
-using surefoot::gaits::testing::require_holds;
-using surefoot::gaits::testing::require_only;
-using surefoot::gaits::testing::scene_on;
+using namespace surefoot::gaits::testing;
 
 TEST_CASE("a stance is rejected where the centre of pressure can leave its feet", "[verifier]") {
   // Feet 0.2 m on either side, 0.1 * 0.5 + 0.03 = 0.08 m of sway: the COM may be 0.12 m off the middle.

@@ -9,16 +9,7 @@
 
 using namespace surefoot;
 using namespace surefoot::gaits;
-using surefoot::gaits::testing::all_faults;
-using surefoot::gaits::testing::chain;
-using surefoot::gaits::testing::foot_at;
-using surefoot::gaits::testing::level_factor;
-using surefoot::gaits::testing::level_ground_and;
-using surefoot::gaits::testing::plan_by_hand;
-using surefoot::gaits::testing::require_fault;
-using surefoot::gaits::testing::require_holds;
-using surefoot::gaits::testing::require_only;
-using surefoot::gaits::testing::scene_on;
+using namespace surefoot::gaits::testing;
 
 TEST_CASE("a plan made by hand on level ground holds", "[verifier]") {
   const Scene scene = scene_on(level_ground_and());

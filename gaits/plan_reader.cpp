@@ -124,12 +124,6 @@ Resolution resolution(const Node& node) {
   return result;
 }
 
-void check_version(const Node& root) {
-  const Node& node = root.require("surefoot", "plan");
-  const std::int64_t version = node.integer("format version");
-  if (version != 1) node.fail("format version is " + std::to_string(version) + ", expected 1");
-}
-
 Plan plan(const Node& root) {
   constexpr const char* what = "plan";
   root.entries(what);
@@ -139,7 +133,7 @@ Plan plan(const Node& root) {
   root.allow_only({"surefoot", "scene", "status", "reason", "planner", "seed", "stances", "transfers", "safety_factor",
                    "safety_factor_before_refinement", "steps", "time_s", "resolution", "left_out"},
                   what);
-  check_version(root);
+  check_format_version(root.require("surefoot", what));
   Plan result;
   result.scene = root.require("scene", what).text("scene");
   result.status = status(root.require("status", what));

@@ -237,7 +237,7 @@ class Report {
   std::string left_out() const {
     if (plan_.left_out.empty()) return "";
     std::string text("\n");
-    text += paint("Left out", bold, options_.colour) + "\n";
+    text += paint("Not computed", bold, options_.colour) + "\n";
     for (const LeftOut& item : plan_.left_out)
       text += fmt::format("  {}: {}\n", printable(item.what), printable(item.why));
     return text;

@@ -35,10 +35,8 @@ const std::vector<std::string>& objective_names() {
 
 std::string not_known(std::string_view what, std::string_view word, const std::vector<std::string>& words) {
   const std::string near = terrain::near_miss(word, words);
-  if (!near.empty())
-    return fmt::format("{}: \"{}\" is not known; did you mean \"{}\"?", what, terrain::shown(word), near);
-  return fmt::format("{}: \"{}\" is not known; expected one of: {}", what, terrain::shown(word),
-                     fmt::join(words, ", "));
+  return fmt::format("{}: \"{}\" is not known; expected one of: {}{}", what, terrain::shown(word),
+                     fmt::join(words, ", "), near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near));
 }
 
 stability::Contact contact_at(const terrain::Foothold& foothold) {

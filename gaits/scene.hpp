@@ -33,6 +33,7 @@ struct Start {
   std::optional<std::pair<int, int>> support;  ///< legs (0..2, first < second) that carry the first stance
   std::optional<Eigen::Vector2d> com;          ///< [m]
   std::string place;                           ///< where the file gives it, "file:line:column"; for messages
+  std::string com_place;                       ///< the same of the COM; empty where none is given
 };
 
 /// COM intervals [m], ends included; at least one is given.
@@ -45,7 +46,7 @@ struct Goal {
 constexpr std::uint32_t greatest_seed = 2147483562;  ///< of OMPL's generator; 0 acts as 1 there, so it is refused
 const std::vector<std::string>& planner_names();     ///< "auto", "Layers", "RRT", "KPIECE1", "EST", "SST"
 const std::vector<std::string>& objective_names();   ///< "steps", "safety", "distance"
-/// The message for a word that is none of `words`: names the nearest, or all.
+/// The message for a word that is none of `words`: names all, and the nearest.
 std::string not_known(std::string_view what, std::string_view word, const std::vector<std::string>& words);
 
 struct SearchDefaults {
@@ -77,6 +78,9 @@ std::optional<Scene> parse_scene(std::string_view text, const std::string& name,
 
 /// For messages about a file in another one's place: whether a document has what only scenes have.
 bool looks_like_scene(const terrain::Node& root);
+
+/// Of scenes and plans: the value of their key "surefoot". Throws terrain::InputError.
+void check_format_version(const terrain::Node& version);
 
 stability::Contact contact_at(const terrain::Foothold& foothold);
 

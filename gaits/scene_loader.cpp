@@ -17,8 +17,6 @@ namespace {
 
 using terrain::Node;
 
-constexpr std::int64_t format_version = 1;
-
 const terrain::KeyHomes key_homes{{"at the top level",
                                    {"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal",
                                     "search"}},
@@ -43,18 +41,18 @@ terrain::Document as_scene(terrain::Document document) {
 constexpr const char* a_version = "; add \"surefoot: 1\" as the first line";
 constexpr const char* no_disturbance = "; for none add \"disturbance: {kappa: 0, nu: 0}\"";
 constexpr const char* a_goal = "; add such as \"goal: {com_x: [from, to]}\"";
+constexpr const char* a_terrain = "; add such as \"terrain: {friction: 0.6, chains: [{vertices: [[-1, 0], [3, 0]]}]}\"";
+constexpr const char* a_robot = "; add such as \"robot: {radius_of_gyration: 0.18, reach: [0.25, 0.9]}\"";
+constexpr const char* a_start = "; add such as \"start: {feet: [{x: -0.5}, {x: 0.1}, {x: -0.2}]}\"";
+constexpr const char* a_kappa = "; add such as \"kappa: 0.1\", sideways pushes borne as a share of the weight";
+constexpr const char* a_nu = "; add such as \"nu: 0.03\", torques borne as a share of the weight, in metres";
+constexpr const char* a_radius = "; add such as \"radius_of_gyration: 0.18\", in metres";
+constexpr const char* a_reach = "; add such as \"reach: [0.25, 0.9]\", from the COM to a foot, in metres";
 
 std::string one_of(const Node& node, std::string_view what, const std::vector<std::string>& words) {
   std::string word = node.text(what);
   if (std::find(words.begin(), words.end(), word) != words.end()) return word;
   node.fail(not_known(what, word, words));
-}
-
-void check_version(const Node& version) {
-  const std::int64_t found = version.integer("surefoot");
-  if (found != format_version) {
-    version.fail(fmt::format("surefoot: format version {} is not known; expected {}", found, format_version));
-  }
 }
 
 /// Neither so large nor so small that its square leaves the range of a double.
@@ -80,27 +78,28 @@ void read_reach(const Node& node, Robot& robot) {
 Robot read_robot(const Node& node) {
   node.allow_only({"radius_of_gyration", "reach", "clearance", "mass"}, "robot");
   Robot robot;
-  node.attempt_each([&] { robot.radius_of_gyration = read_radius(node.require("radius_of_gyration", "robot")); },
-                    [&] { read_reach(node.require("reach", "robot"), robot); },
-                    [&] {
-                      if (const Node* clearance = node.find("clearance"))
-                        robot.clearance = bounded(*clearance, "clearance", clearance->not_negative("clearance"));
-                    },
-                    [&] {
-                      if (const Node* mass = node.find("mass")) robot.mass = mass->positive("mass");
-                    });
+  node.attempt_each(
+      [&] { robot.radius_of_gyration = read_radius(node.require("radius_of_gyration", "robot", a_radius)); },
+      [&] { read_reach(node.require("reach", "robot", a_reach), robot); },
+      [&] {
+        if (const Node* clearance = node.find("clearance"))
+          robot.clearance = bounded(*clearance, "clearance", clearance->not_negative("clearance"));
+      },
+      [&] {
+        if (const Node* mass = node.find("mass")) robot.mass = mass->positive("mass");
+      });
   return robot;
 }
 
 stability::DisturbanceBox read_disturbance(const Node& node) {
   if (node.kind() != Node::Kind::map) node.refuse("disturbance", "{kappa: ..., nu: ...}");
   node.allow_only({"kappa", "nu"}, "disturbance");
-  const auto extent = [&node](std::string_view key) {
-    const Node& value = node.require(key, "disturbance");
+  const auto extent = [&node](std::string_view key, const char* advice) {
+    const Node& value = node.require(key, "disturbance", advice);
     return bounded(value, key, value.not_negative(key));
   };
   stability::DisturbanceBox box;
-  node.attempt_each([&] { box.kappa = extent("kappa"); }, [&] { box.nu = extent("nu"); });
+  node.attempt_each([&] { box.kappa = extent("kappa", a_kappa); }, [&] { box.nu = extent("nu", a_nu); });
   return box;
 }
 
@@ -208,19 +207,20 @@ Scene read_scene(const Node& root, const std::string& file) {
     root.fail(
         "scene: this is a posture; expected a scene (surefoot region takes one with --posture, simulate without "
         "--scene)");
-  if (const Node* version = root.find("surefoot")) check_version(*version);  // of another one nothing else can be said
+  if (const Node* version = root.find("surefoot"))
+    check_format_version(*version);  // of another one nothing else can be said
   root.allow_only({"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal", "search"},
                   "scene");
   root.attempt([&] { root.require("surefoot", "scene", a_version); });
-  auto ground = root.attempt([&] { return terrain::load_terrain(root.require("terrain", "scene")); });
-  const auto robot = root.attempt([&] { return read_robot(root.require("robot", "scene")); });
+  auto ground = root.attempt([&] { return terrain::load_terrain(root.require("terrain", "scene", a_terrain)); });
+  const auto robot = root.attempt([&] { return read_robot(root.require("robot", "scene", a_robot)); });
   const auto box = root.attempt([&] { return read_disturbance(root.require("disturbance", "scene", no_disturbance)); });
   const Node *chosen_stability = root.find("stability"), *chosen_search = root.find("search"),
              *name = root.find("name");
   const auto stability =
       root.attempt([&] { return chosen_stability ? read_stability(*chosen_stability) : Stability(); });
   auto start = root.attempt([&] {
-    return read_start(root.require("start", "scene"), ground ? &*ground : nullptr, robot ? &*robot : nullptr);
+    return read_start(root.require("start", "scene", a_start), ground ? &*ground : nullptr, robot ? &*robot : nullptr);
   });
   if (ground && start) root.attempt([&] { check_sides(root.require("terrain", "scene"), *start); });
   const auto goal = root.attempt([&] { return read_goal(root.require("goal", "scene", a_goal)); });
@@ -260,6 +260,12 @@ std::optional<Scene> load_scene(const std::string& path, terrain::FaultList& fau
 
 std::optional<Scene> parse_scene(std::string_view text, const std::string& name, terrain::FaultList& faults) {
   return examine([&] { return terrain::Document::parse(text, name, &faults); }, name, faults);
+}
+
+void check_format_version(const Node& version) {
+  version.number("surefoot");  // anything else is refused as such
+  if (const std::string found = version.text("surefoot"); found != "1")
+    version.fail(fmt::format("surefoot: format version {} is not known; expected 1", terrain::shown(found)));
 }
 
 bool looks_like_scene(const Node& root) { return root.find("terrain") && root.find("robot"); }

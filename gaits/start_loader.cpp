@@ -182,7 +182,10 @@ Start read_start(const Node& node, const Terrain* ground, const Robot* robot) {
         if (const Node* support = node.find("support")) start.support = read_support(*support, legs);
       },
       [&] {
-        if (const Node* com = node.find("com")) start.com = read_point(*com, "com");
+        const Node* com = node.find("com");
+        if (com == nullptr) return;
+        start.com = read_point(*com, "com");
+        start.com_place = com->where();
       });
   if (!robot) throw terrain::AlreadyTold();
   check_start_reach(node, start, *robot);

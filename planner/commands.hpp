@@ -49,10 +49,11 @@ struct ValidateArguments {
 };
 int run_validate(const ValidateArguments& arguments);
 
-/// Loads a scene: a file, the name of a canned one (canned_scenes.hpp), "-" for stdin.
-gaits::Scene open_scene(const std::string& path);
+/// Loads a scene: a file, the name of a canned one (canned_scenes.hpp), "-" for stdin. Unless `quiet`, a large one is
+/// named while it is read.
+gaits::Scene open_scene(const std::string& path, bool quiet = false);
 /// The same with all faults in the list: nothing if there is any.
-std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults);
+std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults, bool quiet = false);
 /// What is legal but most likely a mistake: chains that seem to be given the wrong way round, friction that looks like
 /// an angle; "" if there is nothing.
 std::string scene_remark(const gaits::Scene& scene);

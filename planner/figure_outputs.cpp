@@ -48,6 +48,7 @@ void check_ending(std::string_view option, const std::string& path) {
 FigureOutputs::Target FigureOutputs::open(const Request& request, const std::optional<std::string>& input) {
   Target target{request.option, nullptr, {}};
   if (*request.path == "-") return target;
+  if (request.path->empty()) throw InputError(fmt::format("{}: the name of the file is empty", request.option));
   target.file = std::make_unique<OutputFile>(*request.path);
   if (input && *input != "-" && target.file->same_as(*input))
     throw InputError(fmt::format("{}: is the input itself and would be overwritten", *request.path));

@@ -62,7 +62,9 @@ constexpr const char* scene_words = "scene file (YAML) or canned scene, - for st
 CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   CLI::App* plan = app.add_subcommand("plan", "Plan a gait for a scene, verify it and print it");
   plan->add_option("SCENE", a.scene, scene_words)->required();
-  plan->add_option("-o,--output", a.output, "write the plan to FILE (replaced as a whole), - for standard output")
+  plan->add_option(
+          "-o,--output", a.output,
+          "write the plan to FILE (replaced as a whole; untouched where no plan is found),\n- for standard output")
       ->type_name("FILE");
   plan->add_option("--format", a.format, "text, json or yaml (default: by the name of FILE, else text)")
       ->type_name("NAME");
@@ -215,6 +217,18 @@ std::string option_meant_by(const std::string& word, const std::vector<std::stri
   return longer != options.end() && word.size() > 3 ? *longer : near_miss(word, options);
 }
 
+/// Options before a command, or instead of one.
+std::string command_missing(const CLI::App& app, const std::string& option) {
+  const std::vector<std::string> commands = command_names(app);
+  const std::string word = option.substr(std::min(option.find_first_not_of('-'), option.size()));
+  if (const std::string meant = option_meant_by(option, {"--help", "--version"}); !meant.empty())
+    return fmt::format("unknown option {}, did you mean {}?", option, meant);
+  if (std::find(commands.begin(), commands.end(), word) != commands.end())
+    return fmt::format("unknown option {}, did you mean surefoot {}?", option, word);
+  return fmt::format("expected a command before {}: {} (surefoot --help tells more)", option,
+                     fmt::join(commands, ", "));
+}
+
 /// What the parser says, with the option or command that may have been meant.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
   const std::vector<std::string> commands = command_names(app);
@@ -227,8 +241,8 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
     return fmt::format("unknown command '{}'{}; there are {}", words[1],
                        meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
   }
+  if (chosen == nullptr && count > 1) return command_missing(app, words[1]);
   std::string message = fault.what();
-  if (message == "A subcommand is required") return command_missing(commands);
   const std::string unconverted = "Could not convert: ";  // "Could not convert: --time-limit = 1min"
   if (const auto equals = message.find(" = "); message.starts_with(unconverted) && equals != std::string::npos)
     return fmt::format("{}: found {}, expected a {}number",
@@ -236,9 +250,8 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
                        is_number(message.substr(equals + 3)) ? "whole " : "");
   const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&fault);
   if (extras == nullptr) return message;
-  if (chosen != nullptr)
-    for (const CLI::Option* option : chosen->get_options())
-      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (const CLI::Option* option : chosen->get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   for (int i = 1; i < count; ++i) {
     const std::string word = std::string(words[i]).substr(0, std::string(words[i]).find('='));
     if (!word.starts_with("-") || std::find(options.begin(), options.end(), word) != options.end()) continue;
@@ -252,7 +265,7 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
                      extra.size() <= most       ? ""
                      : extra.size() == most + 1 ? " and 1 more word"
                                                 : fmt::format(" and {} more words", extra.size() - most),
-                     chosen == nullptr ? "" : chosen->get_name() + " ");
+                     chosen->get_name() + " ");
 }
 
 int run(int count, char** words) {

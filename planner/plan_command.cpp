@@ -186,7 +186,7 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
 
 int run_plan(const PlanArguments& arguments) {
   output_format(arguments);  // says what is wrong with it before anything else is done
-  const gaits::Scene scene = open_scene(arguments.scene);
+  const gaits::Scene scene = open_scene(arguments.scene, arguments.quiet);
   SearchOptions options = search_options(arguments, scene);
   if (const std::string remark = arguments.quiet ? "" : scene_remark(scene); !remark.empty()) note("remark: " + remark);
   FigureOutputs outputs = open_outputs(arguments);

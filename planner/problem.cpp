@@ -56,10 +56,10 @@ bool has_first_step(StepProposals& proposals, const Node& node, int& led_on, int
 
 /// First stances on two given feet with a COM of our choice: the safest few that a first step leads on from, and the
 /// one nearest to the goal.
-void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& choice) {
+void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& choice, PairFaults& faults) {
   const gaits::Scene& scene = proposals.scene();
-  const auto refuse = [&choice](const std::string& fault, bool proven) {
-    choice.fault += (choice.fault.empty() ? "" : "; ") + fault;
+  const auto refuse = [&](const std::string& fault, bool proven) {
+    faults.add(stance, fault);
     choice.decided = choice.decided && proven;
   };
   if (const std::string slips = friction_fault(scene, stance); !slips.empty()) return refuse(slips, true);
@@ -148,6 +148,7 @@ StartChoice choose_start(StepProposals& proposals) {
   const gaits::Scene& scene = proposals.scene();
   const gaits::Start& start = scene.start;
   StartChoice choice;
+  PairFaults faults;
   choice.decided = true;
   for (int lifted = gaits::leg_count - 1; lifted >= 0; --lifted) {
     gaits::Stance stance{start.feet, start.com.value_or(Vector2d::Zero()), 0, {}};
@@ -156,24 +157,24 @@ StartChoice choose_start(StepProposals& proposals) {
     if (!stance.feet[a] || !stance.feet[b]) continue;
     if (start.support && *start.support != std::pair(a, b)) continue;
     if (!start.com) {
-      choose_coms(proposals, stance, choice);
+      choose_coms(proposals, stance, choice, faults);
     } else if (const auto rule = gaits::broken_start_rule(scene, stance)) {
-      const std::string words = broken_rule_words(scene, stance, *rule);  // pairs of legs may share it
-      if (choice.fault.find(words) == std::string::npos) choice.fault += (choice.fault.empty() ? "" : "; ") + words;
+      faults.add(stance, broken_rule_words(scene, stance, *rule));
+      choice.com_decides = choice.com_decides || friction_fault(scene, stance).empty();
     } else {
       choice.nodes.push_back(node_of(scene, stance, proposals));
     }
   }
   std::stable_partition(choice.nodes.begin(), choice.nodes.end(),
                         [&](const Node& node) { return scene.goal.contains(node.com); });
-  if (choice.nodes.empty()) choice.fault += hanging_feet(scene);
-  else choice.fault.clear();
+  if (choice.nodes.empty()) choice.fault = faults.words() + hanging_feet(scene);
   return choice;
 }
 
 terrain::InputError start_error(const gaits::Scene& scene, const StartChoice& choice) {
-  const std::string& place = scene.start.place.empty() ? scene.file : scene.start.place;
-  return terrain::InputError(fmt::format("{}: start: {}", place, choice.fault));
+  const gaits::Start& start = scene.start;
+  const std::string& given = choice.com_decides ? start.com_place : start.place;
+  return terrain::InputError(fmt::format("{}: start: {}", given.empty() ? scene.file : given, choice.fault));
 }
 
 namespace {

@@ -19,8 +19,9 @@ struct StartChoice {
   std::vector<Node> nodes;
   /// Where the COM is open: of each pair the one nearest to the goal. For searches that have tried the others.
   std::vector<Node> nearest;
-  std::string fault;     ///< why there is none, with the rule and the numbers; empty otherwise
-  bool decided = false;  ///< the fault is proven for every choice left open: bad input (otherwise: none was found)
+  std::string fault;         ///< why there is none, with the rule and the numbers; empty otherwise
+  bool decided = false;      ///< the fault is proven for every choice left open: bad input (otherwise: none was found)
+  bool com_decides = false;  ///< the scene gives a COM, and with another one the fault may be gone
 };
 
 StartChoice choose_start(StepProposals& proposals);

@@ -85,7 +85,8 @@ void allow_only(const json& object, const std::string& place, const std::vector<
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const std::string meant = terrain::near_miss(key, keys);
     throw BadLine(fmt::format("{}unknown key \"{}\"{}", place.empty() ? "" : place + ": ", terrain::shown(key),
-                              meant.empty() ? "" : fmt::format(", did you mean \"{}\"?", meant)));
+                              meant.empty() ? fmt::format(", expected one of: {}", fmt::join(keys, ", "))
+                                            : fmt::format(", did you mean \"{}\"?", meant)));
   }
 }
 

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "planner/commands.hpp"
@@ -11,6 +14,53 @@ namespace surefoot::planner {
 
 namespace {
 
+/// A terrain whose vertices are in millimetres while feet, goal and robot are in metres: everything between its
+/// vertices is far longer than the legs, and the whole way lies on one segment.
+std::string scale_remark(const gaits::Scene& scene) {
+  constexpr double legs = 20;  // greatest reaches
+  double least = std::numeric_limits<double>::infinity();
+  const auto& segments = scene.terrain.segments();
+  for (std::size_t i = 1; i + 1 < segments.size(); ++i)  // those that are not at an end of their chain
+    if (segments[i - 1].chain == segments[i].chain && segments[i + 1].chain == segments[i].chain)
+      least = std::min(least, segments[i].length);
+  if (!std::isfinite(least) || least < legs * scene.robot.reach_max || !scene.goal.com_x) return "";
+  double from = scene.goal.com_x->first, to = scene.goal.com_x->second;
+  for (const auto& foot : scene.start.feet)
+    if (foot) from = std::min(from, foot->position.x()), to = std::max(to, foot->position.x());
+  if (to - from > least) return "";
+  return fmt::format(
+      "between its ends no segment of the terrain is shorter than {:.6g} m, the greatest reach is {:.6g} m: are the "
+      "vertices in metres?",
+      least, scene.robot.reach_max);
+}
+
+constexpr const char* sides =
+    "Free space is on the left of a chain: ground runs from left to right, a ceiling from right to left";
+
+std::string back_face_words(const terrain::BackFace& seen) {
+  return fmt::format(
+      "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way "
+      "round? {}",
+      seen.chain, seen.index, seen.at.x(), seen.at.y(), sides);
+}
+
+/// A goal in solid ground: only one that is bounded from below and above can be.
+std::string goal_remark(const gaits::Scene& scene) {
+  if (!scene.goal.com_y) return "";
+  const auto bounds = scene.terrain.bounds();
+  const auto [left, right] = scene.goal.com_x.value_or(std::pair(bounds.min().x(), bounds.max().x()));
+  const auto [low, high] = *scene.goal.com_y;
+  std::vector<terrain::Point> points;
+  constexpr int per_side = 5;
+  for (int i = 0; i < per_side * per_side; ++i)
+    points.emplace_back(std::lerp(left, right, (i % per_side + 0.5) / per_side),
+                        std::lerp(low, high, (i / per_side + 0.5) / per_side));
+  const auto solid = terrain::solid_around(scene.terrain, points);
+  if (!solid) return "";
+  return fmt::format("the goal lies behind chain {}, in what pictures show as solid ground: no COM gets there",
+                     solid->chain);
+}
+
 std::string upside_down_remark(const gaits::Scene& scene) {
   const auto& robot = scene.robot;
   const auto chain = terrain::ground_upside_down(scene.terrain, 2 * robot.reach_max, robot.reach_min);
@@ -19,8 +69,8 @@ std::string upside_down_remark(const gaits::Scene& scene) {
   if (!chain || std::any_of(feet.begin(), feet.end(), stands)) return "";
   return fmt::format(
       "chain {} runs from right to left, with no ground below it and other ground beside it: is it given the wrong way "
-      "round? Free space is on the left of a chain: ground runs from left to right, a ceiling from right to left",
-      *chain);
+      "round? {}",
+      *chain, sides);
 }
 
 }  // namespace
@@ -35,12 +85,12 @@ std::string scene_remark(const gaits::Scene& scene) {
     return fmt::format(
         "the radius of gyration, {:.6g} m, is more than the greatest reach, {:.6g} m: are both in metres?",
         scene.robot.radius_of_gyration, scene.robot.reach_max);
-  const auto seen = terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max);
-  if (!seen) return upside_down_remark(scene);
-  return fmt::format(
-      "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round? Free space "
-      "is on the left of a chain: ground runs from left to right, a ceiling from right to left",
-      seen->chain, seen->index, seen->at.x(), seen->at.y());
+  if (std::string scale = scale_remark(scene); !scale.empty()) return scale;
+  const double within = 2 * scene.robot.reach_max;
+  if (const auto seen = terrain::back_face_seen(scene.terrain, within)) return back_face_words(*seen);
+  if (const auto seen = terrain::wall_back_seen(scene.terrain, within)) return back_face_words(*seen);
+  if (std::string upside_down = upside_down_remark(scene); !upside_down.empty()) return upside_down;
+  return goal_remark(scene);
 }
 
 std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& plan) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "gaits/foothold_words.hpp"
 #include "gaits/frictional_words.hpp"
@@ -18,6 +20,27 @@ std::string legs_in_words(const gaits::Stance& stance) {
   std::string text;
   for (int leg = 0; leg < gaits::leg_count; ++leg)
     if (stance.feet[leg]) text += (text.empty() ? "" : " and ") + std::to_string(leg + 1);
+  return text;
+}
+
+void PairFaults::add(const gaits::Stance& stance, const std::string& words) {
+  const std::string legs = legs_in_words(stance);
+  const std::size_t named = words.find("feet " + legs);
+  Cause cause{words, "", ""};
+  if (named != std::string::npos) {
+    const std::size_t at = named + std::string_view("feet ").size();
+    cause = {words.substr(0, at), legs, words.substr(at + legs.size())};
+  }
+  const auto same = std::find_if(causes_.begin(), causes_.end(), [&](const Cause& other) {
+    return other.before == cause.before && other.after == cause.after;
+  });
+  if (same == causes_.end()) causes_.push_back(std::move(cause));
+  else if (!cause.legs.empty()) same->legs += ", " + cause.legs;
+}
+
+std::string PairFaults::words() const {
+  std::string text;
+  for (const Cause& cause : causes_) text += (text.empty() ? "" : "; ") + cause.before + cause.legs + cause.after;
   return text;
 }
 

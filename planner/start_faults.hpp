@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "gaits/rules.hpp"
 #include "gaits/scene.hpp"
@@ -23,6 +24,20 @@ std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stanc
 /// Start feet that may carry the first stance and from which a robot could only hang, with what may be wrong; "" if
 /// there are none.
 std::string hanging_feet(const gaits::Scene& scene);
+
+/// Causes of all pairs of start feet, in words that name the pair as "feet 1 and 2". What differs in nothing but the
+/// pair is said once: "no COM balances on feet 1 and 2, 1 and 3: ...".
+class PairFaults {
+ public:
+  void add(const gaits::Stance& stance, const std::string& words);
+  std::string words() const;
+
+ private:
+  struct Cause {
+    std::string before, legs, after;
+  };
+  std::vector<Cause> causes_;
+};
 
 struct BalanceFault {
   bool proven = false;

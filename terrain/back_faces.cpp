@@ -24,20 +24,33 @@ double meeting(const Point& from, const Point& direction, const Segment& segment
   return t > 0 && along >= -slack && along <= segment.length + slack ? t : std::numeric_limits<double>::infinity();
 }
 
-/// What a ray of unit direction meets, if it is a back. Through a vertex it meets both neighbours, and what is solid
-/// behind begins at the front.
-std::optional<BackFace> back_face_along(const Terrain& terrain, const Point& from, const Point& direction,
-                                        double within, const Segment* own) {
-  double front = within, back = within;
-  const Segment* met = nullptr;
+struct Sight {
+  const Segment* met = nullptr;  ///< nothing is seen without
+  Point at;
+  bool back = false;
+};
+
+/// What a ray of unit direction meets first. Through a vertex it meets both neighbours, and what is solid behind begins
+/// at the front.
+Sight look(const Terrain& terrain, const Point& from, const Point& direction, double within, const Segment* own) {
+  double nearest[2] = {within, within};  // front, back
+  const Segment* met[2] = {nullptr, nullptr};
   for (const Segment& other : terrain.segments()) {
     if (&other == own || std::abs(other.a.x() - from.x()) > within + other.length) continue;  // out of the ray's reach
     const double t = meeting(from, direction, other);
-    if (other.normal.dot(direction) < 0) front = std::min(front, t);
-    else if (t < back) back = t, met = &other;
+    const int side = other.normal.dot(direction) < 0 ? 0 : 1;
+    if (t < nearest[side]) nearest[side] = t, met[side] = &other;
   }
-  if (met == nullptr || back >= front - rounding * within) return std::nullopt;
-  return BackFace{met->chain, from + back * direction, own != nullptr ? own->chain : 0};
+  const bool back = met[1] != nullptr && nearest[1] < nearest[0] - rounding * within;
+  return {met[back], from + nearest[back] * direction, back};
+}
+
+/// What such a ray meets, if it is a back.
+std::optional<BackFace> back_face_along(const Terrain& terrain, const Point& from, const Point& direction,
+                                        double within, const Segment* own) {
+  const Sight sight = look(terrain, from, direction, within, own);
+  if (!sight.back) return std::nullopt;
+  return BackFace{sight.met->chain, sight.at, own != nullptr ? own->chain : 0};
 }
 
 /// How many of `count` rays may be sent, one at least.
@@ -97,6 +110,39 @@ std::optional<int> ground_upside_down(const Terrain& terrain, double near, doubl
     if (beside && !below) return static_cast<int>(chain);
   }
   return std::nullopt;
+}
+
+std::optional<BackFace> wall_back_seen(const Terrain& terrain, double within) {
+  const auto boxes = boxes_of_chains(terrain);
+  std::size_t rays = rays_of(terrain, terrain.segments().size());
+  for (const Segment& wall : terrain.segments()) {
+    const ChainBox& box = boxes[static_cast<std::size_t>(wall.chain)];
+    if (box.faces_up || !box.faces_down || std::abs(wall.normal.y()) > level) continue;
+    if (rays-- == 0) return std::nullopt;
+    constexpr double behind = 1e-6;  // of the wall's length
+    const Point from = 0.5 * (wall.a + wall.b) - behind * wall.length * wall.normal;
+    const Sight sight = look(terrain, from, Point(0, -1), within, nullptr);  // a wall that leans may be met itself
+    if (sight.met != nullptr && !sight.back) return BackFace{wall.chain, from, sight.met->chain};
+  }
+  return std::nullopt;
+}
+
+std::optional<BackFace> solid_around(const Terrain& terrain, std::span<const Point> points) {
+  auto extent = terrain.bounds();
+  for (const Point& point : points) extent.extend(point);
+  const double far = 2 * extent.sizes().norm();
+  std::optional<BackFace> seen;
+  const std::size_t rays = rays_of(terrain, points.size());
+  for (std::size_t k = 0; k < std::min(rays, points.size()); ++k) {
+    const Point& point = points[k * points.size() / rays];
+    const Sight up = look(terrain, point, Point(0, 1), far, nullptr);
+    const Sight down = look(terrain, point, Point(0, -1), far, nullptr);
+    const bool sees_front = (up.met != nullptr && !up.back) || (down.met != nullptr && !down.back);
+    if (sees_front || (!up.back && !down.back)) return std::nullopt;
+    const Sight& back = up.back ? up : down;
+    seen = BackFace{back.met->chain, back.at, 0};
+  }
+  return seen;
 }
 
 std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within) {

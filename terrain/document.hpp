@@ -185,8 +185,8 @@ std::string read_all(std::FILE* file, const std::string& name);
 /// A value for a message: on one line and of at most so many characters, whatever it holds.
 std::string shown(std::string_view text, std::size_t most = 40);
 
-/// The candidate nearest to a misspelt word, or "" if none is near (edit distance at most 2 or a third of the word,
-/// letter case aside; of equally near ones the first).
+/// The candidate nearest to a misspelt word, or "" if none is near (edit distance at most 2 or a third of the word, of
+/// two or three letters 1, letter case aside; of equally near ones the first).
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace surefoot::terrain

@@ -40,10 +40,16 @@ std::string open_one(const Source& source, std::size_t at) {
 
 }  // namespace
 
-void check_flow_brackets(const Source& source) {
+bool is_flow_text(const Source& source) {
   const std::string_view text = source.text;
   const std::size_t begin = first_of_content(text);
-  if (begin >= text.size() || (text[begin] != '{' && text[begin] != '[')) return;
+  return begin < text.size() && (text[begin] == '{' || text[begin] == '[');
+}
+
+void check_flow_brackets(const Source& source) {
+  const std::string_view text = source.text;
+  if (!is_flow_text(source)) return;
+  const std::size_t begin = first_of_content(text);
   std::vector<std::size_t> open;
   for (std::size_t i = begin; i < text.size(); ++i) {
     const char c = text[i];

@@ -5,6 +5,9 @@
 
 namespace surefoot::terrain {
 
+/// Whether it is such a text.
+bool is_flow_text(const Source& source);
+
 /// Throws InputError at the first bracket that closes another one than was opened last, or at the end if one is still
 /// open. For texts that the parser has refused.
 void check_flow_brackets(const Source& source);

@@ -37,8 +37,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates) {
   if (word.size() > longest_word) return "";
-  // A word of which no letter need remain is near to nothing.
-  std::size_t nearest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, std::max<std::size_t>(word.size(), 1));
+  const std::size_t most = word.size() < 2 ? 0 : word.size() <= 3 ? 1 : std::max<std::size_t>(2, word.size() / 3);
+  std::size_t nearest = most + 1;
   std::string best;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest_word) continue;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "terrain/document.hpp"
+#include "terrain/flow_brackets.hpp"
 #include "terrain/number_text.hpp"
 #include "terrain/source.hpp"
 
@@ -154,11 +155,7 @@ bool Node::is_integer() const {
 /// Of something that is no list of n items: how it may have been meant as one. Twice as many integers may be decimal
 /// numbers with commas.
 std::string Node::list_advice(std::size_t n) const {
-  if (kind() == Kind::scalar) {
-    const std::string_view text = std::get<std::string_view>(content_);
-    const bool listed = text.find(',') != std::string_view::npos || text.starts_with('(') || text.ends_with(')');
-    return listed ? " in square brackets, [a, b]" : "";
-  }
+  if (kind() == Kind::scalar) return n == 2 ? " in square brackets, [a, b]" : "";
   if (kind() != Kind::sequence || n == 0 || std::get<Items>(content_).size() != 2 * n) return "";
   const Items& items = std::get<Items>(content_);
   std::string meant;
@@ -184,7 +181,7 @@ const std::vector<Node>& Node::items(std::string_view what, std::size_t n) const
 }
 
 const std::vector<std::pair<Node, Node>>& Node::entries(std::string_view what) const {
-  if (is_null()) refuse(what, "a map (key: value), indented below it");
+  if (is_null() && source_ && !is_flow_text(*source_)) refuse(what, "a map (key: value), indented below it");
   if (kind() != Kind::map) refuse(what, "a map (key: value)");
   return std::get<Entries>(content_);
 }

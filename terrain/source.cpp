@@ -146,6 +146,7 @@ std::string read_all(std::FILE* file, const std::string& name) {
 }
 
 std::string read_text(const std::string& path) {
+  if (path.empty()) throw InputError("the name of an input file is empty");
   const auto fail = [&path](const std::string& message) { throw InputError(path + ": " + message); };
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("is a directory; expected a file");

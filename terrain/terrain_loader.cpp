@@ -8,6 +8,12 @@
 namespace surefoot::terrain {
 namespace {
 
+// Advice where a key is missing.
+constexpr const char* a_friction =
+    "; add such as \"friction: 0.6\", the coefficient of every segment that gives none itself";
+constexpr const char* some_chains = "; add such as \"chains: [{vertices: [[-1, 0], [3, 0]]}]\"";
+constexpr const char* some_vertices = "; add such as \"vertices: [[-1, 0], [3, 0]]\"";
+
 double coordinate(const Node& node, std::string_view what) {
   const double value = node.number(what);
   if (std::abs(value) > greatest_coordinate) {
@@ -55,7 +61,7 @@ void load_overrides(const Node& node, std::vector<Surface>& surfaces) {
 Chain load_chain(const Node& node, const Surface& surface) {
   if (node.kind() != Node::Kind::map) node.refuse("chain", "vertices: [[x, y], [x, y], ...]");
   node.allow_only({"vertices", "segments"}, "chain");
-  const Node& vertices = node.require("vertices", "chain");
+  const Node& vertices = node.require("vertices", "chain", some_vertices);
   const auto& items = vertices.items("vertices");
   if (items.size() < 2) {
     vertices.fail("vertices: " + std::to_string(items.size()) + " given; expected at least 2");
@@ -95,8 +101,8 @@ const Node& vertex_node(const Node& chains, int chain, int vertex) {
 Terrain load_terrain(const Node& node) {
   node.allow_only({"friction", "chains"}, "terrain");
   Surface surface;
-  node.attempt([&] { surface.friction = node.require("friction", "terrain").not_negative("friction"); });
-  const Node& list = node.require("chains", "terrain");
+  node.attempt([&] { surface.friction = node.require("friction", "terrain", a_friction).not_negative("friction"); });
+  const Node& list = node.require("chains", "terrain", some_chains);
   if (list.kind() == Node::Kind::map) list.refuse("chains", "a list, - vertices: [[x, y], [x, y], ...]");
   std::vector<Chain> chains;
   std::vector<bool> unread;

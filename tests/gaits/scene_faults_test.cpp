@@ -59,7 +59,10 @@ const std::vector<Fault> independent{
       "12:14: greatest reach: b is not a finite decimal number; expected a number such as 0.25 or 1e-3"}},
     {"clearance: 0.1", "clearance: &c 0.1", {"13:14: anchors (&c) are not accepted"}},
     {"  kappa: 0.1\n", "  kappa: !!str 0.1\n", {"15:10: tags (tag:yaml.org,2002:str) are not accepted"}},
-    {"  nu: 0.03\n", "  # lost\n", {"15:3: disturbance: \"nu\" is missing"}},
+    {"  nu: 0.03\n",
+     "  # lost\n",
+     {"15:3: disturbance: \"nu\" is missing; add such as \"nu: 0.03\", torques borne as a share of the weight, in "
+      "metres"}},
     {"criterion: robust",
      "criterion: frictional",
      {"17:24: criterion: frictional stability needs a restitution; expected a key \"restitution\" beside it"}},
@@ -71,7 +74,8 @@ const std::vector<Fault> independent{
     {"{seed: 1}",
      "{seed: 0, planner: RTT}",
      {"22:16: seed: 0 is out of range; expected 1 to 2147483562",
-      "22:28: planner: \"RTT\" is not known; did you mean \"RRT\"?"}},
+      "22:28: planner: \"RTT\" is not known; expected one of: auto, Layers, RRT, KPIECE1, EST, SST (did you mean "
+      "\"RRT\"?)"}},
 };
 
 std::string edited(std::string text, const Fault& fault) {

@@ -195,6 +195,10 @@ TEST_CASE("another format version is refused", "[scene]") {
         "s.yaml:1:11: surefoot: format version 2 is not known; expected 1");
   CHECK_THAT(error_of(with("surefoot: 1", "surefoot: one")), Catch::StartsWith("s.yaml:1:11: surefoot: one is not"));
   // A file of a later version may hold keys unknown to this one: the version is what must be told.
+  for (const std::string other : {"1.0", "0.1", "+1", "2.5"})
+    CHECK(error_of("surefoot: " + other + "\n") ==
+          "s.yaml:1:11: surefoot: format version " + other + " is not known; expected 1");
+  CHECK(error_of("surefoot: \"1\"\n") == "s.yaml:1:11: surefoot: \"1\" is a text; expected a number, without quotes");
   CHECK_THAT(error_of("surefoot: 2\nnovelty: 1\n"), Catch::StartsWith("s.yaml:1:11: surefoot: format version 2"));
 }
 
@@ -234,12 +238,16 @@ TEST_CASE("numbers out of range are refused where they stand", "[scene]") {
 TEST_CASE("words that are not choices are refused, near ones suggested", "[scene]") {
   const Fault fault = GENERATE(
       Fault{"criterion: robust", "criterion: robst",
-            "s.yaml:16:14: criterion: \"robst\" is not known; did you mean \"robust\"?"},
-      Fault{"planner: EST", "planner: rrt", "s.yaml:23:45: planner: \"rrt\" is not known; did you mean \"RRT\"?"},
+            "s.yaml:16:14: criterion: \"robst\" is not known; expected one of: robust, equilibrium, frictional, both "
+            "(did you mean \"robust\"?)"},
+      Fault{"planner: EST", "planner: rrt",
+            "s.yaml:23:45: planner: \"rrt\" is not known; expected one of: auto, Layers, RRT, KPIECE1, EST, SST (did "
+            "you mean \"RRT\"?)"},
       Fault{"planner: EST", "planner: dijkstra",
             "s.yaml:23:45: planner: \"dijkstra\" is not known; expected one of: auto, Layers, RRT, KPIECE1, EST, SST"},
       Fault{"objective: safety", "objective: step",
-            "s.yaml:23:61: objective: \"step\" is not known; did you mean \"steps\"?"},
+            "s.yaml:23:61: objective: \"step\" is not known; expected one of: steps, safety, distance (did you mean "
+            "\"steps\"?)"},
       Fault{"name: test", "name: [a]", "s.yaml:2:7: name: a list of 1 item is given"});
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
 }

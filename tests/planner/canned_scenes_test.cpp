@@ -60,7 +60,8 @@ TEST_CASE("A canned scene is known by its name where no file is", "[command][can
   std::filesystem::remove(place / "flat");
   place.write("flat", "surefoot: 1\nnonsense: 1\n");
   CHECK_THAT(place.run("check flat by_name.json").err,
-             Catch::Contains("flat:1:1: scene: \"terrain\" is missing (and 5 more: surefoot validate flat)"));
+             Catch::Contains("flat:1:1: scene: \"terrain\" is missing; add such as \"terrain: {friction: 0.6, chains: "
+                             "[{vertices: [[-1, 0], [3, 0]]}]}\" (and 5 more: surefoot validate flat)"));
 }
 
 TEST_CASE("What is neither file nor canned scene is answered with the nearest", "[command][canned]") {

@@ -346,6 +346,14 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --time 3").err, Catch::Contains("did you mean --time-limit?"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml -svg a.svg").err, Catch::Contains("did you mean --svg?"));
   for (const char* words : {"help", "help plan"}) CHECK_THAT(place.run(words).err, Catch::Contains("surefoot --help"));
+  CHECK_THAT(place.run("-version").err, Catch::Contains("did you mean --version?"));
+  CHECK_THAT(place.run("--plan a.yaml").err, Catch::Contains("did you mean surefoot plan?"));
+  CHECK_THAT(place.run("--svg a.svg").err, Catch::Contains("expected a command before --svg: plan, check,"));
+  CHECK_THAT(place.run("plan maps/stairs_up.yaml --format xml").err,
+             Catch::Contains("expected one of: text, json, yaml"));
+  for (const char* words :
+       {"plan ''", "plan maps/stairs_up.yaml -o ''", "plan maps/stairs_up.yaml --svg ''", "query ''"})
+    CHECK_THAT(place.run(words).err, Catch::Contains("the name of ") && Catch::EndsWith(" is empty\n"));
   const auto many = place.run("plan a.yaml b.yaml c.yaml d.yaml e.yaml");
   CHECK(many.status == 2);
   CHECK_THAT(many.err,

@@ -148,6 +148,7 @@ TEST_CASE("What is not a proper question is refused with its place", "[query]") 
   CHECK_THAT(fault(with("0.17", "NaN")), Contains("not JSON"));
   CHECK_THAT(fault(with("0.17", "1e999")), Contains("not JSON"));
   CHECK_THAT(fault(with("\"rho\"", "\"rhoo\"")), Contains("did you mean \"rho\""));
+  CHECK_THAT(fault(with("\"rho\"", "\"radius\"")), Contains("expected one of: contacts, com, com_to, rho, kappa, nu"));
   CHECK_THAT(fault(with("\"mu\"", "\"m\"")), Contains("contacts[0]"));
   CHECK_THAT(fault(with("\"rho\"", "\"com\"")), Contains("twice"));
   CHECK_THAT(fault(with("\"p\": [0,0]", "\"p\": [0,0], \"p\": [0,0]")), Contains("twice"));

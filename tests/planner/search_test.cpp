@@ -168,14 +168,14 @@ TEST_CASE("a given start that is not stable is bad input, said with its numbers"
                                     "{com_x: [2, 3]}"),
                          "unstable.yaml");
   CHECK_THROWS_WITH(run(scene),
-                    Catch::StartsWith("unstable.yaml:9:8: start: not stable on feet 1 and 2: safety factor 0"));
+                    Catch::StartsWith("unstable.yaml:9:69: start: not stable on feet 1 and 2: safety factor 0"));
   const auto low =
       gaits::parse_scene(scene_text(level,
                                     "{feet: [{x: -0.4}, {x: 0.1}, {x: -0.2}], support: [1, 2], com: [-0.15, 0.06]}",
                                     "{com_x: [2, 3]}"),
                          "low.yaml");
   CHECK_THROWS_WITH(run(low),
-                    Catch::Contains("low.yaml:9:8: start: the COM is 0.06 m from the terrain, clearance is 0.1 m"));
+                    Catch::Contains("low.yaml:9:71: start: the COM is 0.06 m from the terrain, clearance is 0.1 m"));
 }
 
 TEST_CASE("start feet that no COM balances on are bad input", "[search]") {

@@ -26,6 +26,23 @@ TEST_CASE("A ceiling given the wrong way round is remarked on, canned scenes are
   place.write("large.yaml", with("0.15", "15"));
   CHECK_THAT(place.run("validate large.yaml").out,
              Catch::Contains("remark: the radius of gyration, 15 m, is more than"));
+  place.write("millimetres.yaml",
+              with("[[-1, 0], [4, 0]]", "[[-1000, 0], [500, 0], [500, 150], [900, 150], [4000, 0]]"));
+  CHECK_THAT(place.run("validate millimetres.yaml").out,
+             Catch::Contains("remark: between its ends no segment of the terrain is shorter than 150 m"));
+  for (const char* metres :
+       {"[[-1000, 0], [4000, 0]]", "[[-1000, 0], [500, 0], [500, 0.15], [900, 0.15], [4000, 0]]"}) {
+    place.write("plain.yaml", with("[[-1, 0], [4, 0]]", metres));
+    CHECK_THAT(place.run("validate plain.yaml").out, !Catch::Contains("remark"));
+  }
+  place.write("box.yaml", with("[[-1, 0], [4, 0]]",
+                               "[[-1, 0], [4, 0]]\n    - vertices: [[1.4, .01], [1.4, .3], [1, .3], [1, .01]]"));
+  CHECK_THAT(place.run("validate box.yaml").out,
+             Catch::Contains("remark: chain 1 turns its back to chain 0 at (1.4, 0.155)"));
+  place.write("under.yaml", with("goal: {com_x: [1.5, 2]", "goal: {com_x: [1.5, 2], com_y: [-0.5, 0]"));
+  CHECK_THAT(place.run("validate under.yaml").out, Catch::Contains("remark: the goal lies behind chain 0"));
+  place.write("partly.yaml", with("goal: {com_x: [1.5, 2]", "goal: {com_x: [1.5, 2], com_y: [-0.5, 0.5]"));
+  CHECK_THAT(place.run("validate partly.yaml").out, !Catch::Contains("remark"));
   place.write("stone.yaml", with("[[-1, 0], [4, 0]]",
                                  "[[-1, 0], [0.9, 0]]\n    - vertices: [[1.3, 0], [1.1, 0]]\n"
                                  "    - vertices: [[1.5, 0], [4, 0]]"));
@@ -122,7 +139,7 @@ TEST_CASE("Commands name the first fault in the order of the file, and how many 
     CHECK(run.status == 2);
     CHECK(run.err ==
           "surefoot: error: three.yaml:6:42: reach [least, greatest]: 0.9 is given; expected a list of 2 items "
-          "(and 2 more: surefoot validate three.yaml)\n");
+          "in square brackets, [a, b] (and 2 more: surefoot validate three.yaml)\n");
   }
   // What is read first is not always what stands first.
   place.write("order.yaml", with("goal: {com_x: [1.5, 2]}\n", "", "goal: 1\n" + with("0.6", "-1")));
@@ -151,6 +168,11 @@ TEST_CASE("A start that cannot stand is refused with its cause by plan and valid
       {with("0.6", "0.5", with("[4, 0]", "[4, 5]")),
        "no COM balances on feet 1 and 2, even without disturbances: the ground is too steep for its friction"},
       {with("{x: 0.25}", "{x: -0.3}"), none + ", even without disturbances: they stand at one point"},
+      // Any two of three feet: the cause that they share is said once.
+      {with("  support: [1, 2]\n", "", with("kappa: 0.1", "kappa: 0.7")),
+       "no COM balances on feet 1 and 2, 1 and 3, 2 and 3: friction bears sideways pushes below 0.6 of the weight, "
+       "kappa "
+       "is 0.7"},
       {with("  support", "  com: [0, 0.4]\n  support", with("kappa: 0.1", "kappa: 0.7")),
        level + "0.6 of the weight, kappa is 0.7"},
   };
@@ -184,7 +206,7 @@ TEST_CASE("A given COM that balances nowhere near is told where it would", "[val
               with("  support", "  com: [0.4, 0.4]\n  support", with("kappa: 0.1, nu: 0.03", "kappa: 0, nu: 0")));
   CHECK(
       place.run("validate s.yaml").out ==
-      "s.yaml:9:3: start: not stable on feet 1 and 2: safety factor 0, limited by equilibrium; more than 1 is needed; "
+      "s.yaml:10:8: start: not stable on feet 1 and 2: safety factor 0, limited by equilibrium; more than 1 is needed; "
       "COMs that balance there have x between -0.3 and 0.25\n");
 }
 

@@ -85,6 +85,16 @@ done
 (cd "$work" && PATH="$fakes:$PATH" exec sh "$tree/surefoot" --help) >"$work/out" 2>"$work/err" </dev/null
 expect "sh runs it too" grep -q "surefoot test --sanitize" "$work/out"
 
+# Words that are no command are refused before anything is built; those of the program are taken from its source.
+cp "${launcher%/*}/planner/main.cpp" "$tree/planner/"
+for word in plna ""; do
+  run $word # unquoted: none at all
+  expect "'$word' is no command: status 2" test "$status" -eq 2
+  expect "'$word' builds nothing" nothing_called
+  expect "'$word': the commands are named" says "plan, check, validate, query, region, simulate, bench, maps, test"
+done
+expect "a missing command is called so" says "error: a command is missing: "
+
 # A first call on a bare machine.
 echo "cmake installed" >"$installed"
 if ((EUID == 0)); then

@@ -81,3 +81,42 @@ TEST_CASE("Ground alone, a V, a riser, an overhang, a closed block look at no ba
                                        {{0, 0}, {0, 1}, {1, 1}, {1, 0}, {0, 0}}})  // a block, free space outside
     CHECK_FALSE(back_face_seen(Terrain({chain(vertices)}), 10));
 }
+
+TEST_CASE("Walls of an obstacle given the wrong way round turn their backs to the ground, those of a ceiling do not",
+          "[back_faces]") {
+  const Chain floor = chain({{-1, 0}, {4, 0}});
+  const auto told = [&](std::vector<Point> vertices, double within = 1) {
+    return wall_back_seen(Terrain({floor, chain(std::move(vertices))}), within);
+  };
+  const auto box = told({{1.4, 0.1}, {1.4, 0.3}, {1, 0.3}, {1, 0.1}});
+  REQUIRE(box);
+  CHECK(box->chain == 1);
+  CHECK(box->index == 0);
+  CHECK(box->at.x() == Approx(1.4));
+  CHECK(box->at.y() == Approx(0.2));
+  CHECK_FALSE(told({{1.4, 0.1}, {1.4, 0.3}, {1, 0.3}, {1, 0.1}}, 0.19));  // the ground is further below
+  CHECK_FALSE(told({{1, 0.1}, {1, 0.3}, {1.4, 0.3}, {1.4, 0.1}}));        // as it should be
+  CHECK_FALSE(told({{3, 2}, {3, 1}, {1, 1}, {1, 2}}, 3));                 // a ceiling with its sides
+  CHECK_FALSE(told({{3, 2}, {2.9, 1}, {1.1, 1}, {1, 2}}, 3));             // which lean outwards
+  CHECK_FALSE(told({{3, 2}, {3.1, 1}, {0.9, 1}, {1, 2}}, 3));             // or inwards
+  CHECK_FALSE(told({{3, 1}, {1, 1}}, 3));                                 // without sides
+}
+
+TEST_CASE("Points are in solid ground where nothing but backs is seen above and below", "[back_faces]") {
+  const auto solid = [](std::vector<Chain> chains, std::vector<Point> points) {
+    return solid_around(Terrain(std::move(chains)), points);
+  };
+  const Chain ceiling = chain({{3, 2}, {3, 1}, {1, 1}, {1, 2}});
+  const auto under = solid({ground, ceiling}, {{0, -0.1}, {1.5, -50}});
+  REQUIRE(under);
+  CHECK(under->chain == 0);
+  const auto in_ceiling = solid({ground, ceiling}, {{2, 1.5}});
+  REQUIRE(in_ceiling);
+  CHECK(in_ceiling->chain == 1);
+  CHECK_FALSE(solid({ground, ceiling}, {{0, -0.1}, {0, 0.1}}));  // one is above ground
+  CHECK_FALSE(solid({ground, ceiling}, {{2, 0.6}}));             // between floor and ceiling
+  CHECK_FALSE(solid({ground}, {{-3, -1}}));                      // beside all ground
+  CHECK_FALSE(solid({ground}, {}));
+  // Under a thin shelf its back is seen above, but ground below.
+  CHECK_FALSE(solid({ground, chain({{-0.5, 1}, {0.5, 1}})}, {{0, 0.5}}));
+}

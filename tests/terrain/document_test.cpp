@@ -184,6 +184,8 @@ TEST_CASE("a comma for a point is found where it parts a list or a map", "[docum
     CHECK_THAT(items(text), Catch::EndsWith("expected a list of 2 items"));
   }
   CHECK(items("0.1, 0.9") == "f.yaml:1:1: x: 0.1, 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
+  CHECK(items("0.1 - 0.9") ==
+        "f.yaml:1:1: x: 0.1 - 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
   CHECK(items("(1, 2)") == "f.yaml:1:1: x: (1, 2) is given; expected a list of 2 items in square brackets, [a, b]");
   const auto keys = [](const std::string& text) {
     return error_of([&] { parse(text).root().allow_only({"x"}, "foot"); });
@@ -219,7 +221,7 @@ TEST_CASE("files that are none are refused by name", "[document]") {
         folder.string() + ": is a directory; expected a file");
   CHECK(error_of([&] { Document::read_file(path("none.yaml")); }) ==
         path("none.yaml") + ": cannot be opened: No such file or directory");
-  CHECK(error_of([&] { Document::read_file(""); }) == ": cannot be opened: No such file or directory");
+  CHECK(error_of([&] { Document::read_file(""); }) == "the name of an input file is empty");
   std::ofstream(path("empty.yaml")).close();
   CHECK(error_of([&] { Document::read_file(path("empty.yaml")); }) ==
         path("empty.yaml") + ":1:1: nothing but white space or comments");
@@ -334,6 +336,10 @@ TEST_CASE("bounds, integers, booleans and texts say what they expect", "[documen
   CHECK(tail(error_of([&] { at("n").entries("x"); })) == "x: 12 is given; expected a map (key: value)");
   CHECK(tail(error_of([&] { parse("a:\nb: 1").root().require("a", "x").entries("x"); })) ==
         "x: nothing is given; expected a map (key: value), indented below it");
+  CHECK(error_of([] { parse("x:\ny: 1").root().find("x")->entries("x"); }) ==
+        "f.yaml:1:1: x: nothing is given; expected a map (key: value), indented below it");
+  CHECK(error_of([] { parse("{\"x\": null}").root().find("x")->entries("x"); }) ==
+        "f.yaml:1:7: x: nothing is given; expected a map (key: value)");
   CHECK(tail(error_of([&] { root.require("absent", "x"); })) == "x: \"absent\" is missing");
   CHECK(tail(error_of([&] { root.require("absent", "x", "; add it"); })) == "x: \"absent\" is missing; add it");
   CHECK(root.find("absent") == nullptr);
@@ -409,6 +415,9 @@ TEST_CASE("near misses are near", "[document]") {
   CHECK(near_miss("radius-of-gyraton", keys) == "radius_of_gyration");
   CHECK(near_miss("radius", keys).empty());
   CHECK(near_miss("y", keys).empty());
+  CHECK(near_miss("nuo", keys) == "nu");
+  CHECK(near_miss("foo", {"com"}).empty());  // of three letters one may differ
+  CHECK(near_miss("xml", {"text", "yaml"}).empty());
   CHECK(near_miss("un", keys) == "nu");
   CHECK(near_miss("", keys).empty());
   CHECK(near_miss("friction", {}).empty());

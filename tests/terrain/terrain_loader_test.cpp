@@ -57,8 +57,10 @@ TEST_CASE("every fault of a terrain block has its place and words", "[loader]") 
   const std::string crossing_end = " crosses or touches chain 0, segment 0, which begins at s.yaml:4:18";
   const std::vector<Fault> faults{
       {"[1]", "1:1: terrain: a list of 1 item is given; expected a map (key: value)"},
-      {"chains: []", "1:1: terrain: \"friction\" is missing"},
-      {"friction: 0.6", "1:1: terrain: \"chains\" is missing"},
+      {"chains: []",
+       "1:1: terrain: \"friction\" is missing; add such as \"friction: 0.6\", the coefficient of every segment that "
+       "gives none itself"},
+      {"friction: 0.6", "1:1: terrain: \"chains\" is missing; add such as \"chains: [{vertices: [[-1, 0], [3, 0]]}]\""},
       {"friction: -0.3\nchains: []", "1:11: friction: -0.3 is negative; expected a number >= 0"},
       {"friction: .nan\nchains: []",
        "1:11: friction: .nan is not a finite decimal number; expected a number such as 0.25 or 1e-3"},
@@ -72,10 +74,12 @@ TEST_CASE("every fault of a terrain block has its place and words", "[loader]") 
        "2:10: chain: a list of 2 items is given; expected vertices: [[x, y], [x, y], ...]"},
       {"friction: 0.6\nchains: [{vertex: []}]",
        "2:11: chain: unknown key \"vertex\"; expected one of: vertices, segments"},
-      {"friction: 0.6\nchains: [{segments: {}}]", "2:10: chain: \"vertices\" is missing"},
+      {"friction: 0.6\nchains: [{segments: {}}]",
+       "2:10: chain: \"vertices\" is missing; add such as \"vertices: [[-1, 0], [3, 0]]\""},
       {with_vertices("[]"), "4:17: vertices: 0 given; expected at least 2"},
       {with_vertices("[[1, 2]]"), "4:17: vertices: 1 given; expected at least 2"},
-      {with_vertices("[[1, 2], 3]"), "4:26: vertex [x, y]: 3 is given; expected a list of 2 items"},
+      {with_vertices("[[1, 2], 3]"),
+       "4:26: vertex [x, y]: 3 is given; expected a list of 2 items in square brackets, [a, b]"},
       {with_vertices("[[1, 2], [3]]"), "4:26: vertex [x, y]: a list of 1 item is given; expected a list of 2 items"},
       {with_vertices("[[1, 2], [3, 4, 5]]"),
        "4:26: vertex [x, y]: a list of 3 items is given; expected a list of 2 items"},

@@ -107,9 +107,7 @@ Status status(const Node& node) {
     if (word == to_string(candidate)) return candidate;
     known.emplace_back(to_string(candidate));
   }
-  const std::string near = terrain::near_miss(word, known);
-  node.fail("status is '" + terrain::shown(word) + "', expected solved, no_plan_found or infeasible" +
-            (near.empty() ? "" : " (did you mean '" + near + "'?)"));
+  node.fail(not_known("status", word, known));
 }
 
 Resolution resolution(const Node& node) {

@@ -17,19 +17,23 @@ namespace {
 
 using terrain::Node;
 
-const terrain::KeyHomes key_homes{{"at the top level",
-                                   {"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal",
-                                    "search"}},
-                                  {"inside \"terrain\"", {"chains"}},
+const terrain::Keys scene_keys{"surefoot",  "name",  "terrain", "robot", "disturbance",
+                               "stability", "start", "goal",    "search"};
+const terrain::Keys robot_keys{"radius_of_gyration", "reach", "clearance", "mass"};
+const terrain::Keys disturbance_keys{"kappa", "nu"}, stability_keys{"criterion", "restitution"};
+const terrain::Keys goal_keys{"com_x", "com_y"}, search_keys{"seed", "time_limit", "planner", "objective"};
+
+const terrain::KeyHomes key_homes{{"at the top level", scene_keys},
                                   {"inside \"terrain\", or an entry of \"segments\"", {"friction"}},
-                                  {"inside an entry of \"chains\"", {"vertices", "segments"}},
-                                  {"inside an entry of \"segments\"", {"foothold"}},
-                                  {"inside \"robot\"", {"radius_of_gyration", "reach", "clearance", "mass"}},
-                                  {"inside \"disturbance\"", {"kappa", "nu"}},
-                                  {"inside \"stability\"", {"criterion", "restitution"}},
-                                  {"inside \"start\"", {"feet", "support", "com"}},
-                                  {"inside \"goal\"", {"com_x", "com_y"}},
-                                  {"inside \"search\"", {"seed", "time_limit", "planner", "objective"}}};
+                                  {"inside \"terrain\"", terrain::terrain_keys},
+                                  {"inside an entry of \"chains\"", terrain::chain_keys},
+                                  {"inside an entry of \"segments\"", terrain::segment_keys},
+                                  {"inside \"robot\"", robot_keys},
+                                  {"inside \"disturbance\"", disturbance_keys},
+                                  {"inside \"stability\"", stability_keys},
+                                  {"inside \"start\"", start_keys},
+                                  {"inside \"goal\"", goal_keys},
+                                  {"inside \"search\"", search_keys}};
 
 /// The document, told where the keys of a scene belong.
 terrain::Document as_scene(terrain::Document document) {
@@ -40,7 +44,7 @@ terrain::Document as_scene(terrain::Document document) {
 // Advice where a key is missing.
 constexpr const char* a_version = "; add \"surefoot: 1\" as the first line";
 constexpr const char* no_disturbance = "; for none add \"disturbance: {kappa: 0, nu: 0}\"";
-constexpr const char* a_goal = "; add such as \"goal: {com_x: [from, to]}\"";
+constexpr const char* a_goal = "; add such as \"goal: {com_x: [1.5, 1.9]}\"";
 constexpr const char* a_terrain = "; add such as \"terrain: {friction: 0.6, chains: [{vertices: [[-1, 0], [3, 0]]}]}\"";
 constexpr const char* a_robot = "; add such as \"robot: {radius_of_gyration: 0.18, reach: [0.25, 0.9]}\"";
 constexpr const char* a_start = "; add such as \"start: {feet: [{x: -0.5}, {x: 0.1}, {x: -0.2}]}\"";
@@ -76,7 +80,7 @@ void read_reach(const Node& node, Robot& robot) {
 }
 
 Robot read_robot(const Node& node) {
-  node.allow_only({"radius_of_gyration", "reach", "clearance", "mass"}, "robot");
+  node.allow_only(robot_keys, "robot");
   Robot robot;
   node.attempt_each(
       [&] { robot.radius_of_gyration = read_radius(node.require("radius_of_gyration", "robot", a_radius)); },
@@ -93,7 +97,7 @@ Robot read_robot(const Node& node) {
 
 stability::DisturbanceBox read_disturbance(const Node& node) {
   if (node.kind() != Node::Kind::map) node.refuse("disturbance", "{kappa: ..., nu: ...}");
-  node.allow_only({"kappa", "nu"}, "disturbance");
+  node.allow_only(disturbance_keys, "disturbance");
   const auto extent = [&node](std::string_view key, const char* advice) {
     const Node& value = node.require(key, "disturbance", advice);
     return bounded(value, key, value.not_negative(key));
@@ -124,7 +128,7 @@ struct Stability {
 
 Stability read_stability(const Node& node) {
   if (node.kind() != Node::Kind::map) node.refuse("stability", "{criterion: robust} or another criterion");
-  const bool known = node.allow_only({"criterion", "restitution"}, "stability");
+  const bool known = node.allow_only(stability_keys, "stability");
   const Node *chosen = node.find("criterion"), *e = node.find("restitution");
   Stability stability;
   node.attempt_each(
@@ -156,7 +160,7 @@ constexpr const char* goal_form = "{com_x: [from, to]}, com_y or both";
 
 Goal read_goal(const Node& node) {
   if (node.kind() != Node::Kind::map) node.refuse("goal", goal_form);
-  const bool known = node.allow_only({"com_x", "com_y"}, "goal");
+  const bool known = node.allow_only(goal_keys, "goal");
   Goal goal;
   node.attempt_each([&] { goal.com_x = read_interval(node, "com_x"); },
                     [&] { goal.com_y = read_interval(node, "com_y"); });
@@ -166,7 +170,7 @@ Goal read_goal(const Node& node) {
 }
 
 SearchDefaults read_search(const Node& node) {
-  node.allow_only({"seed", "time_limit", "planner", "objective"}, "search");
+  node.allow_only(search_keys, "search");
   SearchDefaults search;
   const auto read = [&node](const char* key, const auto& store) {
     const Node* value = node.find(key);
@@ -209,8 +213,7 @@ Scene read_scene(const Node& root, const std::string& file) {
         "--scene)");
   if (const Node* version = root.find("surefoot"))
     check_format_version(*version);  // of another one nothing else can be said
-  root.allow_only({"surefoot", "name", "terrain", "robot", "disturbance", "stability", "start", "goal", "search"},
-                  "scene");
+  root.allow_only(scene_keys, "scene");
   root.attempt([&] { root.require("surefoot", "scene", a_version); });
   auto ground = root.attempt([&] { return terrain::load_terrain(root.require("terrain", "scene", a_terrain)); });
   const auto robot = root.attempt([&] { return read_robot(root.require("robot", "scene", a_robot)); });
@@ -263,9 +266,10 @@ std::optional<Scene> parse_scene(std::string_view text, const std::string& name,
 }
 
 void check_format_version(const Node& version) {
+  constexpr const char* known = "1";
   version.number("surefoot");  // anything else is refused as such
-  if (const std::string found = version.text("surefoot"); found != "1")
-    version.fail(fmt::format("surefoot: format version {} is not known; expected 1", terrain::shown(found)));
+  if (const std::string found = version.text("surefoot"); found != known)
+    version.fail(fmt::format("surefoot: format version {} is not known; expected {}", terrain::shown(found), known));
 }
 
 bool looks_like_scene(const Node& root) { return root.find("terrain") && root.find("robot"); }

@@ -166,7 +166,7 @@ void read_feet(const Node& node, const std::vector<Node>& legs, const Terrain* g
 }  // namespace
 
 Start read_start(const Node& node, const Terrain* ground, const Robot* robot) {
-  node.allow_only({"feet", "support", "com"}, "start");
+  node.allow_only(start_keys, "start");
   Start start;
   start.place = node.where();
   const std::vector<Node>* legs = nullptr;

@@ -54,8 +54,8 @@ int run_validate(const ValidateArguments& arguments);
 gaits::Scene open_scene(const std::string& path, bool quiet = false);
 /// The same with all faults in the list: nothing if there is any.
 std::optional<gaits::Scene> open_scene(const std::string& path, terrain::FaultList& faults, bool quiet = false);
-/// What is legal but most likely a mistake: chains that seem to be given the wrong way round, friction that looks like
-/// an angle; "" if there is nothing.
+/// What is legal but most likely a mistake: chains that seem to be given the wrong way round, a goal in solid
+/// ground, lengths that look like millimetres, friction that looks like an angle; "" if there is nothing.
 std::string scene_remark(const gaits::Scene& scene);
 /// A remark on COMs of a plan that lie behind a chain, in what pictures show as solid; "" if there are none.
 std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& plan);

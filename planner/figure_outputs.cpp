@@ -11,12 +11,6 @@ namespace surefoot::planner {
 
 using terrain::InputError;
 
-std::string lower_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 FigureOutputs::FigureOutputs(const std::vector<Request>& requests, const std::optional<std::string>& input) {
   for (const Request& request : requests)
     if (request.path) targets_.push_back(open(request, input));
@@ -35,7 +29,7 @@ namespace {
 
 /// A name that promises another kind of file than the option writes.
 void check_ending(std::string_view option, const std::string& path) {
-  const std::string lower = lower_case(path);
+  const std::string lower = terrain::lower_case(path);
   for (const std::string_view other : {".svg", ".html", ".png", ".pdf", ".jpg", ".jpeg", ".json", ".yaml"}) {
     const bool own = option == "-o" || other.substr(1) == option.substr(2);
     if (!own && lower.ends_with(other))
@@ -48,7 +42,6 @@ void check_ending(std::string_view option, const std::string& path) {
 FigureOutputs::Target FigureOutputs::open(const Request& request, const std::optional<std::string>& input) {
   Target target{request.option, nullptr, {}};
   if (*request.path == "-") return target;
-  if (request.path->empty()) throw InputError(fmt::format("{}: the name of the file is empty", request.option));
   target.file = std::make_unique<OutputFile>(*request.path);
   if (input && *input != "-" && target.file->same_as(*input))
     throw InputError(fmt::format("{}: is the input itself and would be overwritten", *request.path));

@@ -12,9 +12,6 @@
 
 namespace surefoot::planner {
 
-/// For endings of file names, which count whatever their case (ASCII).
-std::string lower_case(std::string text);
-
 class FigureOutputs {
  public:
   struct Request {

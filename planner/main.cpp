@@ -24,6 +24,7 @@
 #include "planner/search.hpp"
 #include "planner/signals.hpp"
 #include "planner/simulate_command.hpp"
+#include "planner/usage_faults.hpp"
 #include "terrain/document.hpp"
 
 namespace {
@@ -31,7 +32,6 @@ namespace {
 using namespace surefoot::planner;
 using surefoot::gaits::objective_names;
 using surefoot::terrain::InputError;
-using surefoot::terrain::near_miss;
 
 std::string version() {
   int major = 0, minor = 0, bugfix = 0;
@@ -190,84 +190,6 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   return simulate;
 }
 
-std::vector<std::string> command_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  return names;
-}
-
-std::string command_missing(const std::vector<std::string>& commands) {
-  return fmt::format("a command is missing: {} (surefoot --help tells more)", fmt::join(commands, ", "));
-}
-
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0';
-}
-
-/// The option that a misspelt word stands for: a letter off, cut short, or with one dash only. "" if none is near.
-std::string option_meant_by(const std::string& word, const std::vector<std::string>& options) {
-  if (!word.starts_with("--")) {
-    const bool known = std::find(options.begin(), options.end(), "-" + word) != options.end();
-    return known ? "-" + word : "";
-  }
-  const auto longer = std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.starts_with(word); });
-  return longer != options.end() && word.size() > 3 ? *longer : near_miss(word, options);
-}
-
-/// Options before a command, or instead of one.
-std::string command_missing(const CLI::App& app, const std::string& option) {
-  const std::vector<std::string> commands = command_names(app);
-  const std::string word = option.substr(std::min(option.find_first_not_of('-'), option.size()));
-  if (const std::string meant = option_meant_by(option, {"--help", "--version"}); !meant.empty())
-    return fmt::format("unknown option {}, did you mean {}?", option, meant);
-  if (std::find(commands.begin(), commands.end(), word) != commands.end())
-    return fmt::format("unknown option {}, did you mean surefoot {}?", option, word);
-  return fmt::format("expected a command before {}: {} (surefoot --help tells more)", option,
-                     fmt::join(commands, ", "));
-}
-
-/// What the parser says, with the option or command that may have been meant.
-std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words) {
-  const std::vector<std::string> commands = command_names(app);
-  std::vector<std::string> options{"--help", "--version"};
-  const std::vector<CLI::App*> parsed = app.get_subcommands();
-  const CLI::App* chosen = parsed.empty() ? nullptr : parsed.front();
-  if (count > 1 && std::string_view(words[1]) == "help") return "expected surefoot --help, or surefoot COMMAND --help";
-  if (chosen == nullptr && count > 1 && words[1][0] != '-') {
-    const std::string meant = near_miss(words[1], commands);
-    return fmt::format("unknown command '{}'{}; there are {}", words[1],
-                       meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
-  }
-  if (chosen == nullptr && count > 1) return command_missing(app, words[1]);
-  std::string message = fault.what();
-  const std::string unconverted = "Could not convert: ";  // "Could not convert: --time-limit = 1min"
-  if (const auto equals = message.find(" = "); message.starts_with(unconverted) && equals != std::string::npos)
-    return fmt::format("{}: found {}, expected a {}number",
-                       message.substr(unconverted.size(), equals - unconverted.size()), message.substr(equals + 3),
-                       is_number(message.substr(equals + 3)) ? "whole " : "");
-  const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&fault);
-  if (extras == nullptr) return message;
-  for (const CLI::Option* option : chosen->get_options())
-    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
-  for (int i = 1; i < count; ++i) {
-    const std::string word = std::string(words[i]).substr(0, std::string(words[i]).find('='));
-    if (!word.starts_with("-") || std::find(options.begin(), options.end(), word) != options.end()) continue;
-    if (const std::string meant = option_meant_by(word, options); !meant.empty())
-      return fmt::format("unknown option {}, did you mean {}?", word, meant);
-  }
-  constexpr std::size_t most = 3;  // words that are named
-  const std::vector<std::string> extra = app.remaining(true);
-  const std::vector<std::string> named(extra.begin(), extra.begin() + std::min(extra.size(), most));
-  return fmt::format("not expected here: {}{} (surefoot {}--help tells what is)", fmt::join(named, ", "),
-                     extra.size() <= most       ? ""
-                     : extra.size() == most + 1 ? " and 1 more word"
-                                                : fmt::format(" and {} more words", extra.size() - most),
-                     chosen->get_name() + " ");
-}
-
 int run(int count, char** words) {
   CLI::App app("Quasistatic 2-3-2 gait planner for a planar three-legged robot.", "surefoot");
   Arguments arguments;
@@ -285,11 +207,12 @@ int run(int count, char** words) {
   add_bench_options(*app.get_subcommand("bench"), arguments.bench);
   const CLI::App* maps = app.add_subcommand("maps", "List the canned scenes: what each exercises");
   if (count <= 1) {
-    report_error(command_missing(command_names(app)));
+    report_error(command_missing(app));
     return exit_bad_input;
   }
   try {
     app.parse(count, words);
+    if (const std::string fault = empty_argument(app); !fault.empty()) throw InputError(fault);
   } catch (const CLI::CallForHelp&) {
     write_stdout(app.help());
     return exit_success;

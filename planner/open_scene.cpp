@@ -15,9 +15,9 @@ namespace {
 
 constexpr const char* stdin_name = "<stdin>";
 
-/// A file that takes seconds to read is named while it is read.
+/// A file that takes a second to read is named while it is read.
 void tell_large(const std::string& file) {
-  constexpr std::uintmax_t large = 1 << 20;  // [bytes] tens of thousands of vertices
+  constexpr std::uintmax_t large = 3'000'000;  // [bytes] some 200,000 vertices
   std::error_code fault;
   const std::uintmax_t size = std::filesystem::file_size(file, fault);
   if (!fault && size > large) show_progress(fmt::format("reading {} ({} MB) ...", file, size / 1'000'000));

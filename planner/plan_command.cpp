@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -28,10 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 /// `word` among `words`, upper or lower case alike. Throws, with the near miss, if it is none of them.
 std::string one_of(const std::string& what, const std::string& word, const std::vector<std::string>& words) {
-  const auto same = [&word](const std::string& other) {
-    return std::equal(word.begin(), word.end(), other.begin(), other.end(),
-                      [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
-  };
+  const auto same = [&](const std::string& other) { return terrain::lower_case(word) == terrain::lower_case(other); };
   const auto found = std::find_if(words.begin(), words.end(), same);
   if (found != words.end()) return *found;
   throw terrain::InputError(gaits::not_known(what, word, words));
@@ -62,7 +58,7 @@ SearchOptions search_options(const PlanArguments& arguments, const gaits::Scene&
 /// As asked for, otherwise by the name of the output, otherwise text.
 std::string output_format(const PlanArguments& arguments) {
   if (arguments.format) return one_of("--format", *arguments.format, {"text", "json", "yaml"});
-  const std::string name = arguments.output.value_or(""), lower = lower_case(name);
+  const std::string name = arguments.output.value_or(""), lower = terrain::lower_case(name);
   for (const char* picture : {".png", ".pdf", ".jpg", ".jpeg"})
     if (lower.ends_with(picture))
       throw terrain::InputError(fmt::format("-o {}: the plan itself goes there; pictures are --svg and --html", name));

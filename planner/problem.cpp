@@ -127,8 +127,8 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   if (found.empty()) {
     const bool frictional = gaits::asks_frictional(scene.criterion);
     const std::string tried = in_goal.empty() ? "" : fmt::format(" and {} in the goal", goal_samples);
-    refuse(fmt::format("no COM was found to stand on feet {} in {} tries{}, refused by {}{}", legs_in_words(stance),
-                       com_samples, tried, shares(refused),
+    refuse(fmt::format("no COM was found to stand on feet {} in {} tries per pair{}, refused by {}{}",
+                       legs_in_words(stance), com_samples, tried, shares(refused),
                        frictional && refused[static_cast<std::size_t>(gaits::Rule::stance_stability)] > 0
                            ? frictional_needs
                            : ""),
@@ -159,8 +159,9 @@ StartChoice choose_start(StepProposals& proposals) {
     if (!start.com) {
       choose_coms(proposals, stance, choice, faults);
     } else if (const auto rule = gaits::broken_start_rule(scene, stance)) {
-      faults.add(stance, broken_rule_words(scene, stance, *rule));
-      choice.com_decides = choice.com_decides || friction_fault(scene, stance).empty();
+      const std::string hopeless = *rule == Rule::stance_stability ? no_com_words(scene, stance) : "";
+      faults.add(stance, hopeless.empty() ? broken_rule_words(scene, stance, *rule) : hopeless);
+      choice.com_decides = choice.com_decides || hopeless.empty();
     } else {
       choice.nodes.push_back(node_of(scene, stance, proposals));
     }

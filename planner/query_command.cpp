@@ -121,7 +121,6 @@ int run_query(const std::string& file, bool stats) {
     if (::isatty(STDIN_FILENO)) note("reading query lines from the terminal; end with Ctrl-D");
     QuerySession(STDIN_FILENO, "standard input").run();
   } else {
-    if (file.empty()) throw terrain::InputError("the name of the file of queries is empty");
     const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) throw terrain::InputError(fmt::format("{}: cannot read: {}", file, std::strerror(errno)));
     QuerySession(descriptor, file).run();

@@ -14,23 +14,28 @@ namespace surefoot::planner {
 
 namespace {
 
-/// A terrain whose vertices are in millimetres while feet, goal and robot are in metres: everything between its
-/// vertices is far longer than the legs, and the whole way lies on one segment.
+/// A terrain whose vertices are in millimetres while feet, goal and robot are in metres: what is a fiftieth of a leg
+/// becomes 20 legs, and so the way from start to goal is shorter than any segment. A riser between two others betrays
+/// it: plains may be as long, and single slopes.
 std::string scale_remark(const gaits::Scene& scene) {
   constexpr double legs = 20;  // greatest reaches
   double least = std::numeric_limits<double>::infinity();
+  bool riser = false;
   const auto& segments = scene.terrain.segments();
-  for (std::size_t i = 1; i + 1 < segments.size(); ++i)  // those that are not at an end of their chain
-    if (segments[i - 1].chain == segments[i].chain && segments[i + 1].chain == segments[i].chain)
-      least = std::min(least, segments[i].length);
-  if (!std::isfinite(least) || least < legs * scene.robot.reach_max || !scene.goal.com_x) return "";
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    least = std::min(least, segments[i].length);
+    const bool inner = i > 0 && i + 1 < segments.size() && segments[i - 1].chain == segments[i].chain &&
+                       segments[i + 1].chain == segments[i].chain;
+    riser = riser || (inner && std::abs(segments[i].normal.x()) > std::abs(segments[i].normal.y()));
+  }
+  if (!riser || least < legs * scene.robot.reach_max || !scene.goal.com_x) return "";
   double from = scene.goal.com_x->first, to = scene.goal.com_x->second;
   for (const auto& foot : scene.start.feet)
     if (foot) from = std::min(from, foot->position.x()), to = std::max(to, foot->position.x());
   if (to - from > least) return "";
   return fmt::format(
-      "between its ends no segment of the terrain is shorter than {:.6g} m, the greatest reach is {:.6g} m: are the "
-      "vertices in metres?",
+      "no segment of the terrain is shorter than {:.6g} m, and the greatest reach is {:.6g} m: are the vertices in "
+      "metres?",
       least, scene.robot.reach_max);
 }
 
@@ -44,21 +49,37 @@ std::string back_face_words(const terrain::BackFace& seen) {
       seen.chain, seen.index, seen.at.x(), seen.at.y(), sides);
 }
 
-/// A goal in solid ground: only one that is bounded from below and above can be.
+/// A goal in solid ground: only one that is bounded on all sides can be seen to be.
 std::string goal_remark(const gaits::Scene& scene) {
-  if (!scene.goal.com_y) return "";
-  const auto bounds = scene.terrain.bounds();
-  const auto [left, right] = scene.goal.com_x.value_or(std::pair(bounds.min().x(), bounds.max().x()));
-  const auto [low, high] = *scene.goal.com_y;
-  std::vector<terrain::Point> points;
-  constexpr int per_side = 5;
-  for (int i = 0; i < per_side * per_side; ++i)
-    points.emplace_back(std::lerp(left, right, (i % per_side + 0.5) / per_side),
-                        std::lerp(low, high, (i / per_side + 0.5) / per_side));
-  const auto solid = terrain::solid_around(scene.terrain, points);
+  const auto &x = scene.goal.com_x, &y = scene.goal.com_y;
+  if (!x || !y) return "";
+  const auto solid =
+      terrain::solid_around(scene.terrain, {terrain::Point(x->first, y->first), terrain::Point(x->second, y->second)});
   if (!solid) return "";
-  return fmt::format("the goal lies behind chain {}, in what pictures show as solid ground: no COM gets there",
-                     solid->chain);
+  return fmt::format("the goal lies behind chain {}, in what pictures show as solid ground: is its place meant so?",
+                     *solid);
+}
+
+/// Where start and goal lie, unbounded where the goal is.
+std::vector<Eigen::AlignedBox2d> inhabited(const gaits::Scene& scene) {
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (const auto& foot : scene.start.feet)
+    if (foot) boxes.emplace_back(foot->position);
+  constexpr double far = terrain::greatest_coordinate;
+  const auto [left, right] = scene.goal.com_x.value_or(std::pair(-far, far));
+  const auto [low, high] = scene.goal.com_y.value_or(std::pair(-far, far));
+  boxes.emplace_back(terrain::Point(left, low), terrain::Point(right, high));
+  return boxes;
+}
+
+std::string inside_out_remark(const gaits::Scene& scene) {
+  const auto chain = terrain::obstacle_inside_out(scene.terrain, inhabited(scene), scene.robot.reach_min);
+  if (!chain) return "";
+  return fmt::format(
+      "the free side of chain {} is its inside, where neither start nor goal lies: is it an obstacle given the wrong "
+      "way "
+      "round? {}",
+      *chain, sides);
 }
 
 std::string upside_down_remark(const gaits::Scene& scene) {
@@ -88,7 +109,7 @@ std::string scene_remark(const gaits::Scene& scene) {
   if (std::string scale = scale_remark(scene); !scale.empty()) return scale;
   const double within = 2 * scene.robot.reach_max;
   if (const auto seen = terrain::back_face_seen(scene.terrain, within)) return back_face_words(*seen);
-  if (const auto seen = terrain::wall_back_seen(scene.terrain, within)) return back_face_words(*seen);
+  if (std::string inside_out = inside_out_remark(scene); !inside_out.empty()) return inside_out;
   if (std::string upside_down = upside_down_remark(scene); !upside_down.empty()) return upside_down;
   return goal_remark(scene);
 }

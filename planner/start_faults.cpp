@@ -74,7 +74,6 @@ std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& st
   if (rule == Rule::clearance)
     return fmt::format("the COM is {:.6g} m from the terrain, clearance is {} m",
                        scene.terrain.distance(stance.com, 2 * robot.clearance + robot.reach_max), robot.clearance);
-  if (std::string slips = friction_fault(scene, stance); !slips.empty()) return slips;
   const auto oracle = gaits::oracle_of(scene, stance.feet);
   const auto sigma = gaits::safety_factor(scene, oracle, stance.com);
   if (gaits::asks_frictional(scene.criterion))
@@ -176,6 +175,12 @@ BalanceFault balance_fault(const gaits::Scene& scene, const gaits::Stance& stanc
     cause = push ? fmt::format("kappa = {} alone is too much", kappa) : fmt::format("nu = {} m alone is too much", nu);
   if (push && turn) cause = fmt::format("kappa = {} alone is too much, and so is nu = {} m", kappa, nu);
   return {true, nobody + "balances every disturbance: " + cause};
+}
+
+std::string no_com_words(const gaits::Scene& scene, const gaits::Stance& stance) {
+  if (std::string slips = friction_fault(scene, stance); !slips.empty()) return slips;
+  const BalanceFault fault = balance_fault(scene, stance);
+  return fault.proven ? fault.words : "";
 }
 
 }  // namespace surefoot::planner

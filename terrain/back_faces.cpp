@@ -53,6 +53,18 @@ std::optional<BackFace> back_face_along(const Terrain& terrain, const Point& fro
   return BackFace{sight.met->chain, sight.at, own != nullptr ? own->chain : 0};
 }
 
+/// Whether a segment and a box, ends and border included, have a point in common (where rounding decides: maybe).
+bool meets(const Eigen::AlignedBox2d& box, const Segment& segment) {
+  if (!box.intersects(Eigen::AlignedBox2d(segment.a.cwiseMin(segment.b), segment.a.cwiseMax(segment.b)))) return false;
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;  // of the corners, along the normal
+  for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
+                            Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
+    const double height = segment.normal.dot(box.corner(corner) - segment.a);
+    least = std::min(least, height), greatest = std::max(greatest, height);
+  }
+  return least <= 0 && greatest >= 0;
+}
+
 /// How many of `count` rays may be sent, one at least.
 std::size_t rays_of(const Terrain& terrain, std::size_t count) {
   return std::clamp<std::size_t>(most_tests / terrain.segments().size(), 1, count);
@@ -112,37 +124,65 @@ std::optional<int> ground_upside_down(const Terrain& terrain, double near, doubl
   return std::nullopt;
 }
 
-std::optional<BackFace> wall_back_seen(const Terrain& terrain, double within) {
-  const auto boxes = boxes_of_chains(terrain);
-  std::size_t rays = rays_of(terrain, terrain.segments().size());
-  for (const Segment& wall : terrain.segments()) {
-    const ChainBox& box = boxes[static_cast<std::size_t>(wall.chain)];
-    if (box.faces_up || !box.faces_down || std::abs(wall.normal.y()) > level) continue;
-    if (rays-- == 0) return std::nullopt;
-    constexpr double behind = 1e-6;  // of the wall's length
-    const Point from = 0.5 * (wall.a + wall.b) - behind * wall.length * wall.normal;
-    const Sight sight = look(terrain, from, Point(0, -1), within, nullptr);  // a wall that leans may be met itself
-    if (sight.met != nullptr && !sight.back) return BackFace{wall.chain, from, sight.met->chain};
+namespace {
+
+struct ChainEnds {
+  const Segment *first = nullptr, *last = nullptr;
+  Eigen::AlignedBox2d extent;
+  double twice_area = 0;  // [m^2] counterclockwise positive, of the chain closed by a straight line
+
+  void add(const Segment& segment) {
+    if (first == nullptr) first = &segment;
+    last = &segment;
+    extent.extend(segment.a).extend(segment.b);
+    const Point a = segment.a - first->a, b = segment.b - first->a;
+    twice_area += a.x() * b.y() - a.y() * b.x();
+  }
+};
+
+std::vector<ChainEnds> ends_of_chains(const Terrain& terrain) {
+  std::vector<ChainEnds> chains(static_cast<std::size_t>(terrain.chain_count()));
+  for (const Segment& segment : terrain.segments()) chains[static_cast<std::size_t>(segment.chain)].add(segment);
+  return chains;
+}
+
+}  // namespace
+
+std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> inhabited,
+                                       double room) {
+  const auto chains = ends_of_chains(terrain);
+  std::size_t rays = rays_of(terrain, 2 * chains.size());
+  const auto stands_low = [&](const Point& end, const Segment& own) {
+    const Sight sight = look(terrain, end, Point(0, -1), room, &own);
+    return sight.met != nullptr && !sight.back && sight.met->chain != own.chain;
+  };
+  for (std::size_t chain = 0; chain < chains.size(); ++chain) {
+    const ChainEnds& ends = chains[chain];
+    if (!(ends.twice_area > 0)) continue;  // free space is outside
+    const auto lives_in = [&](const Eigen::AlignedBox2d& box) { return box.intersects(ends.extent); };
+    if (std::any_of(inhabited.begin(), inhabited.end(), lives_in)) continue;
+    if (ends.first->a == ends.last->b) return static_cast<int>(chain);
+    if (ends.first->a.x() <= ends.last->b.x()) continue;  // ground with a hollow
+    if (rays < 2) return std::nullopt;
+    rays -= 2;
+    if (stands_low(ends.first->a, *ends.first) && stands_low(ends.last->b, *ends.last)) return static_cast<int>(chain);
   }
   return std::nullopt;
 }
 
-std::optional<BackFace> solid_around(const Terrain& terrain, std::span<const Point> points) {
-  auto extent = terrain.bounds();
-  for (const Point& point : points) extent.extend(point);
-  const double far = 2 * extent.sizes().norm();
-  std::optional<BackFace> seen;
-  const std::size_t rays = rays_of(terrain, points.size());
-  for (std::size_t k = 0; k < std::min(rays, points.size()); ++k) {
-    const Point& point = points[k * points.size() / rays];
-    const Sight up = look(terrain, point, Point(0, 1), far, nullptr);
-    const Sight down = look(terrain, point, Point(0, -1), far, nullptr);
-    const bool sees_front = (up.met != nullptr && !up.back) || (down.met != nullptr && !down.back);
-    if (sees_front || (!up.back && !down.back)) return std::nullopt;
-    const Sight& back = up.back ? up : down;
-    seen = BackFace{back.met->chain, back.at, 0};
+std::optional<int> solid_around(const Terrain& terrain, const Eigen::AlignedBox2d& area) {
+  const auto cuts = [&](const Segment& s) { return meets(area, s); };
+  const auto& segments = terrain.segments();
+  if (std::any_of(segments.begin(), segments.end(), cuts)) return std::nullopt;
+  const double far = 2 * terrain.bounds().extend(area).sizes().norm();
+  std::optional<int> above_or_below;
+  for (const Point& way : {Point(0, 1), Point(0, -1), Point(1, 0), Point(-1, 0)}) {
+    const Sight sight = look(terrain, area.center(), way, far, nullptr);
+    if (sight.met == nullptr) continue;
+    if (!sight.back) return std::nullopt;
+    if (way.x() == 0 && !above_or_below) above_or_below = sight.met->chain;
   }
-  return seen;
+  return above_or_below;
 }
 
 std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within) {

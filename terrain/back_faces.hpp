@@ -1,5 +1,6 @@
 // Where ground looks at the back of other ground: legal (a thin shelf over a path), but most often a ceiling whose
-// vertices run the wrong way, so that its solid fills the space below. And chains that are ground the wrong way round.
+// vertices run the wrong way, so that its solid fills the space below. And chains that are ground or obstacles the
+// wrong way round, and what lies in solid ground.
 #pragma once
 
 #include <optional>
@@ -22,13 +23,15 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within);
 /// The first met by rays of that length straight up and down from the points; of many points an even choice is asked.
 std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within);
 
-/// The first wall of a chain that faces down somewhere and up nowhere behind which, within so far below, lies other
-/// ground: an obstacle on that ground whose vertices run the wrong way.
-std::optional<BackFace> wall_back_seen(const Terrain& terrain, double within);
+/// The first chain whose free side is its inside, though none of the `inhabited` boxes meets its extent: most likely an
+/// obstacle given the wrong way round. It is closed, or runs from right to left and both its ends are at most `room`
+/// [m] above other ground. Nothing where there are too many chains to ask.
+std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> inhabited,
+                                       double room);
 
-/// Whether all the points (an even choice of many) lie in solid ground: straight up and down from them nothing but
-/// backs is seen, and one at least. One of these, `index` 0; nothing if they do not, or there are no points.
-std::optional<BackFace> solid_around(const Terrain& terrain, std::span<const Point> points);
+/// Whether a rectangle of finite extent lies in solid ground: no segment meets it, and straight up, down, left and
+/// right of it nothing but backs is seen, one above or below at least. The chain of that one.
+std::optional<int> solid_around(const Terrain& terrain, const Eigen::AlignedBox2d& area);
 
 /// The first chain that is most likely ground given the wrong way round: it faces down somewhere (leaning walls aside)
 /// and up nowhere, no ground lies below it, and ground within `near` [m] beside it is at most `room` [m] lower, so that

@@ -52,6 +52,9 @@ class FaultList {
 /// Thrown instead of InputError where only the consequence of a fault that a FaultList holds already could be said.
 struct AlreadyTold {};
 
+/// The keys of a map.
+using Keys = std::initializer_list<std::string_view>;
+
 /// Where each key of a format belongs: a place as "inside \"robot\"", and its keys.
 using KeyHomes = std::vector<std::pair<std::string_view, std::vector<std::string_view>>>;
 
@@ -99,11 +102,12 @@ class Node {
   // Maps. Keys are scalars and unique (checked when the file is read). `what` names the map.
   const std::vector<std::pair<Node, Node>>& entries(std::string_view what) const;
   const Node* find(std::string_view key) const;  ///< nullptr if absent or not a map
-  /// Absent: InputError that ends in `advice`; AlreadyTold if allow_only has suggested it for a misspelt key.
+  /// Absent: InputError that ends in `advice` (YAML, and kept from files that are JSON); AlreadyTold if allow_only has
+  /// suggested it for a misspelt key.
   const Node& require(std::string_view key, std::string_view what, std::string_view advice = "") const;
   /// Refuses every key that is not listed, and suggests where it belongs or the nearest one that is. False if there is
   /// one (and faults are kept).
-  bool allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const;
+  bool allow_only(Keys keys, std::string_view what) const;
 
  private:
   friend class DocumentBuilder;
@@ -185,8 +189,11 @@ std::string read_all(std::FILE* file, const std::string& name);
 /// A value for a message: on one line and of at most so many characters, whatever it holds.
 std::string shown(std::string_view text, std::size_t most = 40);
 
+/// ASCII letters in lower case.
+std::string lower_case(std::string text);
+
 /// The candidate nearest to a misspelt word, or "" if none is near (edit distance at most 2 or a third of the word, of
-/// two or three letters 1, letter case aside; of equally near ones the first).
+/// two or three letters 1, of one none, letter case aside; of equally near ones the first).
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace surefoot::terrain

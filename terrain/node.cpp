@@ -155,7 +155,8 @@ bool Node::is_integer() const {
 /// Of something that is no list of n items: how it may have been meant as one. Twice as many integers may be decimal
 /// numbers with commas.
 std::string Node::list_advice(std::size_t n) const {
-  if (kind() == Kind::scalar) return n == 2 ? " in square brackets, [a, b]" : "";
+  if (kind() == Kind::scalar)
+    return n == 2 ? " in square brackets, [a, b]" : n == 3 ? " in square brackets, [a, b, c]" : "";
   if (kind() != Kind::sequence || n == 0 || std::get<Items>(content_).size() != 2 * n) return "";
   const Items& items = std::get<Items>(content_);
   std::string meant;
@@ -202,10 +203,11 @@ const Node& Node::require(std::string_view key, std::string_view what, std::stri
       if (meant_by(std::get<std::string_view>(name.content_), {std::string(key)}) == key) throw AlreadyTold();
     }
   }
-  fail(std::string(what) + ": \"" + std::string(key) + "\" is missing" + std::string(advice));
+  const bool yaml = source_ && !is_flow_text(*source_);  // in which the advice is written
+  fail(std::string(what) + ": \"" + std::string(key) + "\" is missing" + std::string(yaml ? advice : ""));
 }
 
-bool Node::allow_only(std::initializer_list<std::string_view> keys, std::string_view what) const {
+bool Node::allow_only(Keys keys, std::string_view what) const {
   bool known = true;
   const std::pair<Node, Node>* before = nullptr;
   for (const auto& entry : entries(what)) {

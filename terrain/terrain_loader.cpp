@@ -40,7 +40,7 @@ void load_override(const Node& key, const Node& value, std::vector<Surface>& sur
   given[index] = true;
   const std::string name = "segment " + std::to_string(index);
   if (value.kind() != Node::Kind::map) value.refuse(name, "{friction: number}, {foothold: false} or both");
-  value.allow_only({"friction", "foothold"}, name);
+  value.allow_only(segment_keys, name);
   Surface& surface = surfaces[index];
   if (const Node* friction = value.find("friction")) {
     friction->attempt([&] { surface.friction = friction->not_negative("friction"); });
@@ -60,7 +60,7 @@ void load_overrides(const Node& node, std::vector<Surface>& surfaces) {
 
 Chain load_chain(const Node& node, const Surface& surface) {
   if (node.kind() != Node::Kind::map) node.refuse("chain", "vertices: [[x, y], [x, y], ...]");
-  node.allow_only({"vertices", "segments"}, "chain");
+  node.allow_only(chain_keys, "chain");
   const Node& vertices = node.require("vertices", "chain", some_vertices);
   const auto& items = vertices.items("vertices");
   if (items.size() < 2) {
@@ -99,7 +99,7 @@ const Node& vertex_node(const Node& chains, int chain, int vertex) {
 }  // namespace
 
 Terrain load_terrain(const Node& node) {
-  node.allow_only({"friction", "chains"}, "terrain");
+  node.allow_only(terrain_keys, "terrain");
   Surface surface;
   node.attempt([&] { surface.friction = node.require("friction", "terrain", a_friction).not_negative("friction"); });
   const Node& list = node.require("chains", "terrain", some_chains);

@@ -7,6 +7,9 @@
 
 namespace surefoot::terrain {
 
+inline const Keys terrain_keys{"friction", "chains"}, chain_keys{"vertices", "segments"},
+    segment_keys{"friction", "foothold"};
+
 /// Throws InputError. Where the document keeps its faults: the terrain as far as it can be read, or AlreadyTold.
 Terrain load_terrain(const Node& node);
 

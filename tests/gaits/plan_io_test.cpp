@@ -338,7 +338,7 @@ TEST_CASE("faults in a plan are named with their place", "[plan_io]") {
       {1, "1", "2", "2", {"version", "2", "1"}},
       {1, "surefoot: 1", "planner: p", "", {"surefoot"}},
       {2, "scene", "sceen", "sceen", {"sceen", "scene"}},
-      {3, "solved", "sloved", "sloved", {"sloved", "did you mean 'solved'"}},
+      {3, "solved", "sloved", "sloved", {"sloved", "did you mean \"solved\""}},
       {3, "status: solved", "seed: 1", "", {"status"}},
       {3, "status: solved", "status: solved\nseed: -1", "", {"seed", "-1"}},
       {3, "status: solved", "status: solved\nseed: 4294967296", "", {"seed", "4294967296"}},

@@ -172,7 +172,7 @@ TEST_CASE("what is required is missed", "[scene]") {
       Fault{"disturbance: {kappa: 0.1, nu: 0.03}\n", "",
             "s.yaml:1:1: scene: \"disturbance\" is missing; for none add \"disturbance: {kappa: 0, nu: 0}\""},
       Fault{"goal: {com_x: [1.6, 1.9], com_y: [0.5, 0.5]}\n", "",
-            "s.yaml:1:1: scene: \"goal\" is missing; add such as \"goal: {com_x: [from, to]}\""},
+            "s.yaml:1:1: scene: \"goal\" is missing; add such as \"goal: {com_x: [1.5, 1.9]}\""},
       Fault{"{kappa: 0.1, nu: 0.03}", "{nu: 0.03}", "s.yaml:14:14: disturbance: \"kappa\" is missing"},
       Fault{"  radius_of_gyration: 0.12\n", "", "s.yaml:10:3: robot: \"radius_of_gyration\" is missing"},
       Fault{"  reach: [0.2, 0.9]\n", "", "s.yaml:10:3: robot: \"reach\" is missing"},

@@ -25,7 +25,7 @@ faults() {
         else if (what ~ /^ompl\//     && room != "planner") wrong()
         else if (what ~ /^nlopt/      && (header || $1 !~ /^planner\/(refine.*|main)\.cpp$/)) wrong()
         else if (what ~ /^yaml-cpp\// && (header || room != "terrain")) wrong()
-        else if (what ~ /^CLI/        && $1 !~ /^planner\/(main\.cpp|bench_options\.hpp)$/) wrong()
+        else if (what ~ /^CLI/        && $1 !~ /^planner\/(main\.cpp|bench_options\.hpp|usage_faults\.hpp)$/) wrong()
       }'
   )
 }

@@ -351,9 +351,22 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
   CHECK_THAT(place.run("--svg a.svg").err, Catch::Contains("expected a command before --svg: plan, check,"));
   CHECK_THAT(place.run("plan maps/stairs_up.yaml --format xml").err,
              Catch::Contains("expected one of: text, json, yaml"));
-  for (const char* words :
-       {"plan ''", "plan maps/stairs_up.yaml -o ''", "plan maps/stairs_up.yaml --svg ''", "query ''"})
-    CHECK_THAT(place.run(words).err, Catch::Contains("the name of ") && Catch::EndsWith(" is empty\n"));
+  const std::vector<std::pair<std::string, std::string>> early{{"--seed 3 plan x", "--seed"},
+                                                               {"-q plan x", "-q"},
+                                                               {"--svg=a.svg plan x", "--svg"},
+                                                               {"-o p.json plan x", "-o"}};
+  for (const auto& [words, option] : early)
+    CHECK_THAT(place.run(words).err, Catch::Contains(option + " belongs behind the command: surefoot plan ... "));
+  const std::vector<std::pair<std::string, std::string>> empty{{"plan ''", "SCENE"},
+                                                               {"check maps/stairs_up.yaml ''", "PLAN"},
+                                                               {"plan maps/stairs_up.yaml -o ''", "--output"},
+                                                               {"plan maps/stairs_up.yaml --svg ''", "--svg"},
+                                                               {"query ''", "FILE"}};
+  for (const auto& [words, name] : empty) {
+    const auto run = place.run(words);
+    CHECK(run.status == 2);
+    CHECK(run.err == "surefoot: error: " + name + " is an empty text\n");
+  }
   const auto many = place.run("plan a.yaml b.yaml c.yaml d.yaml e.yaml");
   CHECK(many.status == 2);
   CHECK_THAT(many.err,

@@ -87,13 +87,17 @@ expect "sh runs it too" grep -q "surefoot test --sanitize" "$work/out"
 
 # Words that are no command are refused before anything is built; those of the program are taken from its source.
 cp "${launcher%/*}/planner/main.cpp" "$tree/planner/"
-for word in plna ""; do
-  run $word # unquoted: none at all
-  expect "'$word' is no command: status 2" test "$status" -eq 2
-  expect "'$word' builds nothing" nothing_called
-  expect "'$word': the commands are named" says "plan, check, validate, query, region, simulate, bench, maps, test"
+for words in "plna x" "" "-version" "--svg a.svg"; do
+  # shellcheck disable=SC2086
+  run $words
+  expect "'$words' is no command: status 2" test "$status" -eq 2
+  expect "'$words' builds nothing" nothing_called
+  expect "'$words': the commands are named" says "plan, check, validate, query, region, simulate, bench, maps, test"
 done
 expect "a missing command is called so" says "error: a command is missing: "
+run 'pl
+an'
+expect "an unknown word is told on one line" test "$(wc -l <"$work/err")" -eq 1
 
 # A first call on a bare machine.
 echo "cmake installed" >"$installed"

@@ -82,41 +82,56 @@ TEST_CASE("Ground alone, a V, a riser, an overhang, a closed block look at no ba
     CHECK_FALSE(back_face_seen(Terrain({chain(vertices)}), 10));
 }
 
-TEST_CASE("Walls of an obstacle given the wrong way round turn their backs to the ground, those of a ceiling do not",
+TEST_CASE("Obstacles given the wrong way round are told from ceilings and from rooms that somebody lives in",
           "[back_faces]") {
-  const Chain floor = chain({{-1, 0}, {4, 0}});
-  const auto told = [&](std::vector<Point> vertices, double within = 1) {
-    return wall_back_seen(Terrain({floor, chain(std::move(vertices))}), within);
+  using Box = Eigen::AlignedBox2d;
+  const Chain floor = chain({{-1, 0}, {6, 0}});
+  const Box start(Point(0, 0)), goal(Point(5, -10), Point(5.4, 10));
+  const auto told = [&](std::vector<Point> vertices, std::vector<Box> inhabited) {
+    return obstacle_inside_out(Terrain({floor, chain(std::move(vertices))}), inhabited, 0.2);
   };
-  const auto box = told({{1.4, 0.1}, {1.4, 0.3}, {1, 0.3}, {1, 0.1}});
-  REQUIRE(box);
-  CHECK(box->chain == 1);
-  CHECK(box->index == 0);
-  CHECK(box->at.x() == Approx(1.4));
-  CHECK(box->at.y() == Approx(0.2));
-  CHECK_FALSE(told({{1.4, 0.1}, {1.4, 0.3}, {1, 0.3}, {1, 0.1}}, 0.19));  // the ground is further below
-  CHECK_FALSE(told({{1, 0.1}, {1, 0.3}, {1.4, 0.3}, {1.4, 0.1}}));        // as it should be
-  CHECK_FALSE(told({{3, 2}, {3, 1}, {1, 1}, {1, 2}}, 3));                 // a ceiling with its sides
-  CHECK_FALSE(told({{3, 2}, {2.9, 1}, {1.1, 1}, {1, 2}}, 3));             // which lean outwards
-  CHECK_FALSE(told({{3, 2}, {3.1, 1}, {0.9, 1}, {1, 2}}, 3));             // or inwards
-  CHECK_FALSE(told({{3, 1}, {1, 1}}, 3));                                 // without sides
+  const std::vector<std::vector<Point>> obstacles{
+      {{1, 0.1}, {1, 0.3}, {1.4, 0.3}, {1.4, 0.1}},            // a box, as it should be
+      {{0.9, 0.1}, {1, 0.3}, {1.4, 0.3}, {1.5, 0.1}},          // with walls that lean in
+      {{1, 0.1}, {0.9, 0.3}, {1.5, 0.3}, {1.4, 0.1}},          // and out
+      {{1, 0.1}, {1.2, 0.3}, {1.4, 0.1}},                      // a triangle
+      {{1, 0.1}, {1, 0.3}, {1.4, 0.3}, {1.4, 0.1}, {1, 0.1}},  // a block, closed
+      {{1, 3}, {1, 4}, {1.4, 4}, {1.4, 3}, {1, 3}},            // that floats
+  };
+  for (const std::vector<Point>& vertices : obstacles) {
+    INFO(vertices.size() << " vertices from " << vertices.front().transpose() << " by " << vertices[1].transpose());
+    const std::vector<Point> reversed(vertices.rbegin(), vertices.rend());
+    CHECK_FALSE(told(vertices, {start, goal}));
+    CHECK(told(reversed, {start, goal}) == 1);
+    CHECK_FALSE(told(reversed, {start, Box(Point(1.2, 0.1), Point(5, 5))}));  // a room with the goal in it
+    CHECK_FALSE(told(reversed, {Box(Point(1.2, vertices[1].y())), goal}));    // or the start
+  }
+  const std::vector<Box> both{start, goal};
+  CHECK_FALSE(told({{3, 2}, {3, 1}, {1, 1}, {1, 2}}, both));              // a ceiling with its sides
+  CHECK_FALSE(told({{3, 1}, {1, 1}}, both));                              // without
+  CHECK_FALSE(told({{1.4, 0.3}, {1.4, 0.5}, {1, 0.5}, {1, 0.3}}, both));  // ends too high over the floor
+  CHECK_FALSE(told({{1, 0.15}, {1.2, 0.1}, {1.4, 0.15}}, both));          // ground with a hollow over the floor
 }
 
-TEST_CASE("Points are in solid ground where nothing but backs is seen above and below", "[back_faces]") {
-  const auto solid = [](std::vector<Chain> chains, std::vector<Point> points) {
-    return solid_around(Terrain(std::move(chains)), points);
+TEST_CASE("An area is in solid ground if it has no ground in it and nothing but backs around", "[back_faces]") {
+  const auto solid = [](std::vector<Chain> chains, const Point& low, const Point& high) {
+    return solid_around(Terrain(std::move(chains)), {low, high});
   };
   const Chain ceiling = chain({{3, 2}, {3, 1}, {1, 1}, {1, 2}});
-  const auto under = solid({ground, ceiling}, {{0, -0.1}, {1.5, -50}});
-  REQUIRE(under);
-  CHECK(under->chain == 0);
-  const auto in_ceiling = solid({ground, ceiling}, {{2, 1.5}});
-  REQUIRE(in_ceiling);
-  CHECK(in_ceiling->chain == 1);
-  CHECK_FALSE(solid({ground, ceiling}, {{0, -0.1}, {0, 0.1}}));  // one is above ground
-  CHECK_FALSE(solid({ground, ceiling}, {{2, 0.6}}));             // between floor and ceiling
-  CHECK_FALSE(solid({ground}, {{-3, -1}}));                      // beside all ground
-  CHECK_FALSE(solid({ground}, {}));
-  // Under a thin shelf its back is seen above, but ground below.
-  CHECK_FALSE(solid({ground, chain({{-0.5, 1}, {0.5, 1}})}, {{0, 0.5}}));
+  const Chain pit = chain({{-1, 0}, {1, 0}, {1, -1}, {2, -1}, {2, 0}, {3, 0}});
+  CHECK(solid({ground, ceiling}, {0, -0.2}, {0.5, -0.1}) == 0);
+  CHECK(solid({ground, ceiling}, {0, -50}, {0, -50}) == 0);  // a point
+  CHECK(solid({ground, ceiling}, {1.5, 1.2}, {2, 1.5}) == 1);
+  CHECK(solid({pit}, {0, -0.5}, {0.5, -0.1}) == 0);
+  CHECK_FALSE(solid({ground, ceiling}, {0, -10}, {0.5, 0.01}));  // the ground is in it
+  CHECK_FALSE(solid({ground, ceiling}, {0, -10}, {0.5, 0}));     // at its border
+  CHECK_FALSE(solid({ground, ceiling}, {0, -10}, {1.9, 0.02}));  // a slope cuts its corner
+  CHECK_FALSE(solid({pit}, {0, -10}, {3, -0.1}));                // the floor of a pit is
+  CHECK_FALSE(solid({pit}, {1.2, -0.5}, {1.5, -0.1}));           // in the pit
+  CHECK_FALSE(solid({ground, ceiling}, {1.5, 0.5}, {2, 0.6}));   // between floor and ceiling
+  CHECK_FALSE(solid({ground}, {-3, -2}, {-2, -1}));              // beside all ground
+  // Under a thin shelf its back is seen above, but ground below; in a chimney with a lid, its walls.
+  CHECK_FALSE(solid({ground, chain({{-0.5, 1}, {0.5, 1}})}, {0, 0.5}, {0.1, 0.6}));
+  const std::vector<Chain> chimney{chain({{0, 3}, {0, 0}}), chain({{1, 0}, {1, 3}}), chain({{-1, 4}, {2, 4}})};
+  CHECK_FALSE(solid(chimney, {0.4, 2}, {0.6, 2.5}));
 }

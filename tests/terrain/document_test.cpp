@@ -184,6 +184,8 @@ TEST_CASE("a comma for a point is found where it parts a list or a map", "[docum
     CHECK_THAT(items(text), Catch::EndsWith("expected a list of 2 items"));
   }
   CHECK(items("0.1, 0.9") == "f.yaml:1:1: x: 0.1, 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
+  CHECK_THAT(error_of([&] { parse("1, 2, 3").root().items("x", 3); }),
+             Catch::EndsWith("expected a list of 3 items in square brackets, [a, b, c]"));
   CHECK(items("0.1 - 0.9") ==
         "f.yaml:1:1: x: 0.1 - 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
   CHECK(items("(1, 2)") == "f.yaml:1:1: x: (1, 2) is given; expected a list of 2 items in square brackets, [a, b]");
@@ -341,7 +343,10 @@ TEST_CASE("bounds, integers, booleans and texts say what they expect", "[documen
   CHECK(error_of([] { parse("{\"x\": null}").root().find("x")->entries("x"); }) ==
         "f.yaml:1:7: x: nothing is given; expected a map (key: value)");
   CHECK(tail(error_of([&] { root.require("absent", "x"); })) == "x: \"absent\" is missing");
-  CHECK(tail(error_of([&] { root.require("absent", "x", "; add it"); })) == "x: \"absent\" is missing; add it");
+  CHECK(error_of([] { parse("y: 1").root().require("x", "y", "; add it"); }) ==
+        "f.yaml:1:1: y: \"x\" is missing; add it");
+  CHECK(error_of([] { parse("{\"y\": 1}").root().require("x", "y", "; add it"); }) ==
+        "f.yaml:1:1: y: \"x\" is missing");  // advice is YAML
   CHECK(root.find("absent") == nullptr);
   CHECK(at("n").find("absent") == nullptr);
 }

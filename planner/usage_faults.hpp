@@ -1,0 +1,18 @@
+// What is wrong with a command line, in one line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace surefoot::planner {
+
+/// Said where there is none, with those that there are.
+std::string command_missing(const CLI::App& app);
+
+/// What the parser found, with the option or command that may have been meant.
+std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words);
+
+/// An argument of the command that is empty, as an unset variable of a script leaves it; "" if there is none.
+std::string empty_argument(const CLI::App& app);
+
+}  // namespace surefoot::planner

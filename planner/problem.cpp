@@ -3,140 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "gaits/rules.hpp"
 #include "planner/com_window.hpp"
-#include "planner/refusals.hpp"
-#include "planner/start_faults.hpp"
+#include "planner/spread.hpp"
 
 namespace surefoot::planner {
-
-using Eigen::Vector2d;
-using gaits::Rule;
-
-namespace {
-
-/// Said where no frictionally stable start was found: on most postures there is none.
-constexpr const char* frictional_needs =
-    "frictional stability wants a low body between wide, grippy feet: `surefoot region --stance LEG,LEG` shows where "
-    "it "
-    "holds";
-constexpr int com_samples = 400;          ///< COMs tried per pair of start feet
-constexpr int goal_samples = 200;         ///< of these, drawn from the goal where the start feet reach it
-constexpr int most_moves = 60;            ///< of the safest of these towards where it is safest
-constexpr std::size_t keep_per_pair = 3;  ///< first stances handed to the search per pair of start feet
-constexpr int first_step_tries = 64;      ///< codes tried to see whether a first step exists
-constexpr int climbing_tries = 8;         ///< beside the one that led on before, on the way to where a stance is safest
-constexpr std::uint64_t goal_pairs = 30000;
-constexpr int coms_per_pair = 6;
-
-/// Coordinate i of the k-th point of the additive recurrence in five dimensions; the root of x^6 = x + 1 is its base.
-double spread(std::uint64_t k, int i) {
-  constexpr double root = 1.1347241384015194;
-  const double value = 0.5 + static_cast<double>(k + 1) * std::pow(root, -(i + 1));
-  return value - std::floor(value);
-}
-
-Node node_of(const gaits::Scene& scene, const gaits::Stance& stance, StepProposals& proposals) {
-  Node node{scene.start.feet, 0, stance.com, proposals.next_id()};
-  while (stance.feet[node.free_leg]) ++node.free_leg;
-  return node;
-}
-
-/// `led_on` is the code that led on from the node asked about before: near it, the same mostly leads on again.
-bool has_first_step(StepProposals& proposals, const Node& node, int& led_on, int tries = first_step_tries) {
-  Node next;
-  if (proposals.propose(node, spread_code(led_on), next)) return true;
-  for (int k = 0; k < tries; ++k) {
-    if (k == led_on || !proposals.propose(node, spread_code(k), next)) continue;
-    led_on = k;
-    return true;
-  }
-  return false;
-}
-
-/// First stances on two given feet with a COM of our choice: the safest few that a first step leads on from, and the
-/// one nearest to the goal.
-void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& choice, PairFaults& faults) {
-  const gaits::Scene& scene = proposals.scene();
-  const auto refuse = [&](const std::string& fault, bool proven) {
-    faults.add(stance, fault);
-    choice.decided = choice.decided && proven;
-  };
-  if (const std::string slips = friction_fault(scene, stance); !slips.empty()) return refuse(slips, true);
-  const auto oracle = gaits::oracle_of(scene, stance.feet);
-  const Polygon window = reach_window(stance.feet, proposals.robot().reach_max);
-  const Polygon polygon =
-      window.empty() ? window : gaits::oracle_of(scene, stance.feet, box_of_stances(scene)).equilibrium_polygon(window);
-  if (polygon.empty()) {
-    const BalanceFault fault = balance_fault(scene, stance);
-    return refuse(fault.words, fault.proven);
-  }
-  const Polygon in_goal = clip_to_goal(polygon, scene.goal);
-  std::vector<std::pair<double, Node>> found;
-  int led_on = 0;
-  RuleCounts refused{};
-  const auto may_stand = [&](const Vector2d& com) {
-    stance.com = com;
-    const auto& robot = proposals.robot();
-    std::optional<Rule> broken;
-    if (!gaits::within_reach(robot, stance.feet, com, com)) broken = Rule::reach;
-    else if (!gaits::is_stable(scene, oracle, com)) broken = Rule::stance_stability;
-    else if (scene.terrain.distance(com, robot.clearance) < robot.clearance) broken = Rule::clearance;
-    else broken = gaits::broken_start_rule(scene, stance);
-    if (broken) ++refused[static_cast<std::size_t>(*broken)];
-    return !broken;
-  };
-  for (int k = in_goal.empty() ? goal_samples : 0; k < goal_samples + com_samples; ++k) {
-    if (!may_stand(point_in(k < goal_samples ? in_goal : polygon, spread(k, 0), spread(k, 1)))) continue;
-    const Node node = node_of(scene, stance, proposals);
-    if (scene.goal.contains(node.com)) {
-      choice.nodes.insert(choice.nodes.begin(), node);
-      return;
-    }
-    found.emplace_back(gaits::safety_factor(scene, oracle, stance.com).value, node);
-  }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  // No plan is safer than its first stance: the safest is moved to where it is safest still.
-  const auto make_safest = [&](std::pair<double, Node>& best) {
-    const double reach = scene.robot.reach_max;
-    double step = reach / 8;
-    for (int move = 0; step > reach / 2000 && move < most_moves; ++move) {
-      const Vector2d centre = best.second.com;
-      for (const Vector2d& way : {Vector2d(step, 0), Vector2d(-step, 0), Vector2d(0, step), Vector2d(0, -step)}) {
-        if (!may_stand(centre + way)) continue;
-        const double factor = gaits::safety_factor(scene, oracle, stance.com).value;
-        if (!(factor > best.first)) continue;
-        const Node node = node_of(scene, stance, proposals);
-        if (has_first_step(proposals, node, led_on, climbing_tries)) best = {factor, node};
-      }
-      if (best.second.com == centre) step /= 2;
-    }
-  };
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < found.size() && kept < keep_per_pair; ++i) {
-    if (!has_first_step(proposals, found[i].second, led_on)) continue;
-    if (kept == 0) make_safest(found[i]);
-    choice.nodes.push_back(found[i].second);
-    ++kept;
-  }
-  if (kept == 0 && !found.empty()) choice.nodes.push_back(found.front().second);
-  const auto nearest = std::min_element(found.begin(), found.end(), [&](const auto& a, const auto& b) {
-    return scene.goal.distance(a.second.com) < scene.goal.distance(b.second.com);
-  });
-  if (nearest != found.end()) choice.nearest.push_back(nearest->second);
-  if (found.empty()) {
-    const std::string tried = in_goal.empty() ? "" : fmt::format(" and {} in the goal", goal_samples);
-    refuse(fmt::format("no COM was found to stand on feet {} in {} tries per pair{}, refused by {}",
-                       legs_in_words(stance), com_samples, tried, shares(refused)),
-           false);
-    if (gaits::asks_frictional(scene.criterion) && refused[static_cast<std::size_t>(Rule::stance_stability)] > 0)
-      faults.advise(frictional_needs);
-  }
-}
-
-}  // namespace
 
 StepCode spread_code(std::uint64_t k) {
   StepCode code;
@@ -144,41 +16,10 @@ StepCode spread_code(std::uint64_t k) {
   return code;
 }
 
-StartChoice choose_start(StepProposals& proposals) {
-  const gaits::Scene& scene = proposals.scene();
-  const gaits::Start& start = scene.start;
-  StartChoice choice;
-  PairFaults faults;
-  choice.decided = true;
-  for (int lifted = gaits::leg_count - 1; lifted >= 0; --lifted) {
-    gaits::Stance stance{start.feet, start.com.value_or(Vector2d::Zero()), 0, {}};
-    stance.feet[lifted].reset();
-    const int a = lifted == 0 ? 1 : 0, b = lifted == 2 ? 1 : 2;
-    if (!stance.feet[a] || !stance.feet[b]) continue;
-    if (start.support && *start.support != std::pair(a, b)) continue;
-    if (!start.com) {
-      choose_coms(proposals, stance, choice, faults);
-    } else if (const auto rule = gaits::broken_start_rule(scene, stance)) {
-      const std::string hopeless = *rule == Rule::stance_stability ? no_com_words(scene, stance) : "";
-      faults.add(stance, hopeless.empty() ? broken_rule_words(scene, stance, *rule) : hopeless);
-      choice.com_decides = choice.com_decides || hopeless.empty();
-    } else {
-      choice.nodes.push_back(node_of(scene, stance, proposals));
-    }
-  }
-  std::stable_partition(choice.nodes.begin(), choice.nodes.end(),
-                        [&](const Node& node) { return scene.goal.contains(node.com); });
-  if (choice.nodes.empty()) choice.fault = faults.words() + hanging_feet(scene);
-  return choice;
-}
-
-terrain::InputError start_error(const gaits::Scene& scene, const StartChoice& choice) {
-  const gaits::Start& start = scene.start;
-  const std::string& given = choice.com_decides ? start.com_place : start.place;
-  return terrain::InputError(fmt::format("{}: start: {}", given.empty() ? scene.file : given, choice.fault));
-}
-
 namespace {
+
+constexpr std::uint64_t goal_pairs = 30000;
+constexpr int coms_per_pair = 6;
 
 /// Parts of segments that a COM in the goal may reach, with the running sum of their lengths.
 struct NearGoal {

@@ -50,6 +50,7 @@ if [[ $1 == --preset ]]; then
   printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\n' "$PWD" >"$dir/CMakeCache.txt"
   [[ $* != *TESTS=ON* ]] || echo SUREFOOT_TESTS:BOOL=ON >>"$dir/CMakeCache.txt"
 else
+  trap 'sleep 0.3; exit 1' INT TERM HUP # as ninja, which waits for its compilers
   sleep "${FAKE_SECONDS:-0}"
   if [[ -n ${FAKE_ERROR-} ]]; then echo "terrain.cpp:1: error: $FAKE_ERROR"; exit 1; fi
   mkdir -p "$dir/bin"
@@ -195,18 +196,21 @@ expect "and both run" test "$(<"$work/out1")$(<"$work/out2")" = "[$work][plan][1
 # Signals while it builds, to the launcher alone or, as Ctrl-C sends them, to the group that a terminal knows. (A
 # background process of a script ignores INT unless told otherwise.)
 running() { grep -lsz "^FAKE_SECONDS=$1\$" /proc/[0-9]*/environ; }
-for case in "INT 130 -" "INT 130" "TERM 143" "HUP 129"; do
-  read -r signal expected group <<<"$case"
+build_in_background() { # build_in_background SECONDS: from nothing; its process in $builder
   rm -rf "$tree/build"
   : >"$calls"
-  (cd "$work" && FAKE_SECONDS=97.$$ PATH="$fakes:$PATH" exec env --default-signal=INT setsid "$tree/surefoot" plan x) \
+  (cd "$work" && FAKE_SECONDS=$1 PATH="$fakes:$PATH" exec env --default-signal=INT setsid "$tree/surefoot" plan x) \
     >"$work/out" 2>"$work/err" </dev/null &
-  interrupted=$!
+  builder=$!
   for ((i = 0; i < 200; ++i)); do called "cmake --build" && break || sleep 0.05; done
   sleep 0.1
-  expect "SIG$signal: something is running before" test -n "$(running 97.$$)"
-  kill -s "$signal" -- "$group$interrupted"
-  wait "$interrupted"
+  expect "something is running" test -n "$(running "$1")"
+}
+for case in "INT 130 -" "INT 130" "TERM 143" "HUP 129"; do
+  read -r signal expected group <<<"$case"
+  build_in_background 97.$$
+  kill -s "$signal" -- "$group$builder"
+  wait "$builder"
   status=$?
   expect "SIG$signal: nothing is left running" test -z "$(running 97.$$)"
   expect "SIG$signal: status $expected" test "$status" -eq "$expected"
@@ -216,6 +220,20 @@ for case in "INT 130 -" "INT 130" "TERM 143" "HUP 129"; do
 done
 run plan x
 expect "and the next call builds" called "cmake --build"
+
+build_in_background 1.$$
+stopped() {
+  local processes
+  mapfile -t processes < <(running 1.$$)
+  ((${#processes[@]} > 3)) && ! cat "${processes[@]/%environ/stat}" | grep -qv ') T '
+}
+kill -s TSTP "$builder"
+for ((i = 0; i < 40; ++i)); do stopped && break || sleep 0.05; done
+expect "Ctrl-Z stops all of the build" stopped
+kill -s CONT "$builder"
+wait "$builder"
+status=$?
+expect "and fg goes on with it" test "$status" -eq 3
 
 # What cannot be written, because another user built first or owns the tree. Who is root becomes another user.
 if ((EUID != 0)) || command -v setpriv >/dev/null; then

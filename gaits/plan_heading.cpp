@@ -43,7 +43,8 @@ void title_and_scale(SvgCanvas& canvas, const Page& page, const std::string& tit
 }
 
 /// Entries flow over at most two lines; widths are estimates, the font is the viewer's.
-void legend(SvgCanvas& canvas, const Page& page, const WeakestPlace& weakest, const TerrainPicture& terrain) {
+void legend(SvgCanvas& canvas, const Page& page, const Plan& plan, const WeakestPlace& weakest,
+            const TerrainPicture& terrain) {
   double x = 30, y = 82;
   const auto entry = [&](const std::string& words, auto&& symbol) {
     const double width = 44 + 6.9 * static_cast<double>(words.size());
@@ -55,19 +56,21 @@ void legend(SvgCanvas& canvas, const Page& page, const WeakestPlace& weakest, co
   const Vector2d across(22, 0), middle(11, 0);
   for (int leg = 0; leg < leg_count; ++leg)
     entry(fmt::format("leg {}", leg + 1), [&](const Vector2d& at) { draw_badge(canvas, at + middle, leg); });
-  entry("COM by step", [&](const Vector2d& at) {
-    canvas.line(at, at + across, com_line);
-    canvas.circle(at + middle, dot_radius, com_dot);
-  });
+  if (!plan.stances.empty())
+    entry("COM by step", [&](const Vector2d& at) {
+      canvas.line(at, at + across, com_line);
+      canvas.circle(at + middle, dot_radius, com_dot);
+    });
   if (weakest.bounded())
     entry("least safety factor", [&](const Vector2d& at) { canvas.line(at, at + across, weak_line); });
   const auto box = [&](const Vector2d& at, const Paint& paint) {
     canvas.rectangle(at - Vector2d(0, 6), 22, 12, paint);
   };
-  entry("R_SS(W): COMs in balance", [&](const Vector2d& at) {
-    box(at, {.fill = support_colour, .opacity = 0.25});
-    box(at, support_edge);
-  });
+  if (!plan.stances.empty())
+    entry("R_SS(W): COMs in balance", [&](const Vector2d& at) {
+      box(at, {.fill = support_colour, .opacity = 0.25});
+      box(at, support_edge);
+    });
   entry("goal", [&](const Vector2d& at) { box(at, {.fill = goal_colour, .opacity = 0.45}); });
   for (const auto& key : terrain.legend())
     entry(key.label, [&](const Vector2d& at) {
@@ -87,7 +90,7 @@ void draw_badge(SvgCanvas& canvas, const Vector2d& at, int leg) {
 void draw_heading(SvgCanvas& canvas, const Page& page, const std::string& title, const Plan& plan,
                   const std::vector<std::string>& faults, const WeakestPlace& weakest, const TerrainPicture& terrain) {
   title_and_scale(canvas, page, title, plan, faults, weakest);
-  legend(canvas, page, weakest, terrain);
+  legend(canvas, page, plan, weakest, terrain);
 }
 
 }  // namespace surefoot::gaits

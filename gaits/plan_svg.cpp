@@ -57,7 +57,7 @@ class PlanPicture {
     canvas_.define_clip(clip_id, corner, size.x(), size.y());
     canvas_.open_group("row", clip_id);
     const Eigen::AlignedBox2d goal = goal_in(row);
-    if (!goal.isEmpty()) draw_goal(row, goal);
+    if (!goal.isEmpty()) draw_goal(row, goal, {.fill = goal_colour, .opacity = 0.3});
     for (const int k : row.stances) support(row, k);
     terrain_.draw_ground(canvas_, row.view, row.window);
     if (!goal.isEmpty()) label_goal(row, goal);
@@ -80,15 +80,16 @@ class PlanPicture {
     return box.intersection(row.window);
   }
 
-  void draw_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
+  void draw_goal(const PageRow& row, const Eigen::AlignedBox2d& goal, const Paint& paint) {
     const Vector2d size = goal.sizes() * page_.scale;
     constexpr double thinnest = 2;  // [px] a goal may be a single abscissa
     canvas_.rectangle(row.view({goal.min().x(), goal.max().y()}), std::max(size.x(), thinnest),
-                      std::max(size.y(), thinnest), {.fill = goal_colour, .opacity = 0.3});
+                      std::max(size.y(), thinnest), paint);
   }
 
-  /// Solid ground may hide the upper end of the goal, but not its name.
+  /// Solid ground may hide the goal, but neither its name nor, where its height is given, its edges.
   void label_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
+    if (scene_.goal.com_y) draw_goal(row, goal, {.stroke = goal_colour, .width = 1.5});
     canvas_.text(row.view({goal.center().x(), goal.max().y()}) + Vector2d(0, 15), "goal",
                  {.colour = "#6b6400", .anchor = "middle", .bold = true});
   }

@@ -228,7 +228,10 @@ class Report {
     for (const Entry& entry : entries) {
       text += fmt::format("  {} on legs {}: {}\n", printable(entry.limit), legs_text(entry.legs),
                           printable(limit_in_words(entry.limit, entry.legs)));
-      if (!entry.stances.empty()) text += "      stance of step " + steps_text(entry.stances) + "\n";
+      if (!entry.stances.empty())
+        text += (entry.stances.front() > plan_.steps() ? "      the last stance"
+                                                       : "      stance of step " + steps_text(entry.stances)) +
+                "\n";
       if (!entry.transfers.empty()) text += "      transfer of step " + steps_text(entry.transfers) + "\n";
     }
     return text;

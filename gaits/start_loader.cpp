@@ -26,6 +26,10 @@ double bounded(const Node& node, std::string_view what, double value) {
 
 namespace {
 
+// Advice where a key is missing.
+constexpr const char* three_feet = "; add such as \"feet: [{x: -0.5}, {x: 0.1}, {x: -0.2}]\"";
+constexpr const char* foot_forms = "; expected {x: number} or {chain: number, s: number}";
+
 Eigen::Vector2d read_point(const Node& node, const std::string& what) {
   const auto& xy = node.items(what + " [x, y]", 2);
   Eigen::Vector2d point;
@@ -43,8 +47,8 @@ const terrain::Segment* segment_around(const Terrain& ground, int chain, double 
 }
 
 Foothold read_foot_by_arc_length(const Node& node, const Terrain* ground) {
-  const Node& chain_node = node.require("chain", "foot");
-  const Node& s_node = node.require("s", "foot");
+  const Node& chain_node = node.require("chain", "foot", foot_forms);
+  const Node& s_node = node.require("s", "foot", foot_forms);
   std::int64_t chain = 0;
   double s = 0;
   node.attempt_each([&] { chain = chain_node.integer("chain"); }, [&] { s = s_node.number("s"); });
@@ -72,9 +76,10 @@ Foothold read_foot_by_x(const Node& node, const Terrain* ground) {
   const Node& x_node = node.require("x", "foot");
   const double x = x_node.number("x");
   if (!ground) throw terrain::AlreadyTold();
-  const std::vector<Foothold> found = ground->footholds_at_x(x);
+  std::vector<Foothold> found = ground->footholds_at_x(x);
   if (found.size() == 1) return found.front();
   if (found.empty()) x_node.fail(no_foothold_at_x(*ground, x));
+  std::stable_partition(found.begin(), found.end(), [](const Foothold& foothold) { return foothold.normal.y() >= 0; });
   std::vector<std::string> list;
   list.reserve(found.size());
   for (const Foothold& foothold : found) {
@@ -132,10 +137,11 @@ void check_start_reach(const Node& node, const Start& start, const Robot& robot)
       if (leg < other) least_gap = std::min(least_gap, (foot(leg) - foot(other)).norm());
     }
   }
+  constexpr double far = 100;  // greatest reaches: millimetres, most likely
   if (least_gap > 2 * robot.reach_max * (1 + limit_slack)) {
     node.require("feet", "start")
-        .fail(fmt::format("feet: {:.6g} m apart, out of reach of any COM; expected at most {}", least_gap,
-                          2 * robot.reach_max));
+        .fail(fmt::format("feet: {:.6g} m apart, out of reach of any COM; expected at most {}{}", least_gap,
+                          2 * robot.reach_max, least_gap > far * robot.reach_max ? " (are all in metres?)" : ""));
   }
   if (!start.com) return;
   const Node& com = node.require("com", "start");
@@ -172,7 +178,7 @@ Start read_start(const Node& node, const Terrain* ground, const Robot* robot) {
   const std::vector<Node>* legs = nullptr;
   node.attempt_each(
       [&] {
-        const Node& feet = node.require("feet", "start");
+        const Node& feet = node.require("feet", "start", three_feet);
         if (feet.kind() != Node::Kind::sequence || feet.items("feet").size() != leg_count)
           feet.refuse("feet", fmt::format("a list of {}, one for each leg (null: in the air)", leg_count));
         legs = &feet.items("feet");

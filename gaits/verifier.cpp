@@ -46,6 +46,8 @@ class Verifier {
     }
     result.least_factor = checks_.least_factor();
     result.faults = std::move(checks_.faults());
+    // What breaks the plan comes before what it only states wrongly.
+    std::stable_partition(result.faults.begin(), result.faults.end(), [](const Fault& fault) { return !fault.stated; });
     return result;
   }
 

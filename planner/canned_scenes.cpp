@@ -95,6 +95,8 @@ std::string scene_file(const std::string& scene) {
   const std::vector<CannedScene> canned = canned_scenes();
   if (std::string file = canned_file(canned, scene); !file.empty()) return file;
   if (exists) return scene;
+  if (fs::is_symlink(scene, ignored))
+    throw terrain::InputError(fmt::format("{}: is a symbolic link that leads nowhere", one_line(scene)));
   const std::string meant = scene_meant(scene, canned);
   throw terrain::InputError(
       fmt::format("{}: no such file or canned scene{}", one_line(scene),

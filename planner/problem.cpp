@@ -19,7 +19,9 @@ namespace {
 
 /// Said where no frictionally stable start was found: on most postures there is none.
 constexpr const char* frictional_needs =
-    "; frictional stability wants a low body between wide, grippy feet: `surefoot region` shows where it holds";
+    "frictional stability wants a low body between wide, grippy feet: `surefoot region --stance LEG,LEG` shows where "
+    "it "
+    "holds";
 constexpr int com_samples = 400;          ///< COMs tried per pair of start feet
 constexpr int goal_samples = 200;         ///< of these, drawn from the goal where the start feet reach it
 constexpr int most_moves = 60;            ///< of the safest of these towards where it is safest
@@ -125,14 +127,12 @@ void choose_coms(StepProposals& proposals, gaits::Stance stance, StartChoice& ch
   });
   if (nearest != found.end()) choice.nearest.push_back(nearest->second);
   if (found.empty()) {
-    const bool frictional = gaits::asks_frictional(scene.criterion);
     const std::string tried = in_goal.empty() ? "" : fmt::format(" and {} in the goal", goal_samples);
-    refuse(fmt::format("no COM was found to stand on feet {} in {} tries per pair{}, refused by {}{}",
-                       legs_in_words(stance), com_samples, tried, shares(refused),
-                       frictional && refused[static_cast<std::size_t>(gaits::Rule::stance_stability)] > 0
-                           ? frictional_needs
-                           : ""),
+    refuse(fmt::format("no COM was found to stand on feet {} in {} tries per pair{}, refused by {}",
+                       legs_in_words(stance), com_samples, tried, shares(refused)),
            false);
+    if (gaits::asks_frictional(scene.criterion) && refused[static_cast<std::size_t>(Rule::stance_stability)] > 0)
+      faults.advise(frictional_needs);
   }
 }
 

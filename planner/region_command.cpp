@@ -38,6 +38,7 @@ void read_scene(const RegionArguments& arguments, Subject& subject) {
   subject.figure.radius_of_gyration = scene.robot.radius_of_gyration;
   subject.figure.box = {{}, scene.disturbance.kappa, scene.disturbance.nu};
   if (stance.contacts.size() == 2) subject.restitution = scene.restitution;
+  else if (scene.restitution) note("frictional stability is about two contacts: --stance LEG,LEG shows where it holds");
 }
 
 /// A query line (formats.md) whose `com`, if it is there, is only marked.

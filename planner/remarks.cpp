@@ -15,8 +15,7 @@ namespace surefoot::planner {
 namespace {
 
 /// A terrain whose vertices are in millimetres while feet, goal and robot are in metres: what is a fiftieth of a leg
-/// becomes 20 legs, and so the way from start to goal is shorter than any segment. A riser between two others betrays
-/// it: plains may be as long, and single slopes.
+/// becomes 20 legs. A riser between two others betrays it: plains may be as long, and single slopes.
 std::string scale_remark(const gaits::Scene& scene) {
   constexpr double legs = 20;  // greatest reaches
   double least = std::numeric_limits<double>::infinity();
@@ -28,11 +27,7 @@ std::string scale_remark(const gaits::Scene& scene) {
                        segments[i + 1].chain == segments[i].chain;
     riser = riser || (inner && std::abs(segments[i].normal.x()) > std::abs(segments[i].normal.y()));
   }
-  if (!riser || least < legs * scene.robot.reach_max || !scene.goal.com_x) return "";
-  double from = scene.goal.com_x->first, to = scene.goal.com_x->second;
-  for (const auto& foot : scene.start.feet)
-    if (foot) from = std::min(from, foot->position.x()), to = std::max(to, foot->position.x());
-  if (to - from > least) return "";
+  if (!riser || least < legs * scene.robot.reach_max) return "";
   return fmt::format(
       "no segment of the terrain is shorter than {:.6g} m, and the greatest reach is {:.6g} m: are the vertices in "
       "metres?",
@@ -107,6 +102,10 @@ std::string scene_remark(const gaits::Scene& scene) {
         "the radius of gyration, {:.6g} m, is more than the greatest reach, {:.6g} m: are both in metres?",
         scene.robot.radius_of_gyration, scene.robot.reach_max);
   if (std::string scale = scale_remark(scene); !scale.empty()) return scale;
+  constexpr double giant = 50;  // [m]
+  if (scene.robot.reach_max > giant)
+    return fmt::format("the greatest reach is {:.6g} m: are all lengths, nu among them, in metres?",
+                       scene.robot.reach_max);
   const double within = 2 * scene.robot.reach_max;
   if (const auto seen = terrain::back_face_seen(scene.terrain, within)) return back_face_words(*seen);
   if (std::string inside_out = inside_out_remark(scene); !inside_out.empty()) return inside_out;

@@ -11,6 +11,7 @@
 #include "gaits/foothold_words.hpp"
 #include "gaits/frictional_words.hpp"
 #include "planner/com_window.hpp"
+#include "terrain/back_faces.hpp"
 
 namespace surefoot::planner {
 
@@ -41,7 +42,7 @@ void PairFaults::add(const gaits::Stance& stance, const std::string& words) {
 std::string PairFaults::words() const {
   std::string text;
   for (const Cause& cause : causes_) text += (text.empty() ? "" : "; ") + cause.before + cause.legs + cause.after;
-  return text;
+  return advice_.empty() ? text : text + "; " + advice_;
 }
 
 namespace {
@@ -62,6 +63,8 @@ std::string balancing_coms(const gaits::Scene& scene, const gaits::Stance& stanc
 
 std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& stance, Rule rule) {
   const gaits::Robot& robot = scene.robot;
+  if (const auto chain = terrain::solid_around(scene.terrain, Eigen::AlignedBox2d(stance.com)))
+    return fmt::format("the COM lies behind chain {}, in solid ground", *chain);
   for (int leg = 0; leg < gaits::leg_count; ++leg) {
     if (!stance.feet[leg]) continue;
     const double distance = (stance.com - stance.feet[leg]->position).norm();

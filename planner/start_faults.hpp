@@ -30,6 +30,8 @@ std::string hanging_feet(const gaits::Scene& scene);
 class PairFaults {
  public:
   void add(const gaits::Stance& stance, const std::string& words);
+  /// Said once, behind the causes.
+  void advise(const std::string& advice) { advice_ = advice; }
   std::string words() const;
 
  private:
@@ -37,6 +39,7 @@ class PairFaults {
     std::string before, legs, after;
   };
   std::vector<Cause> causes_;
+  std::string advice_;
 };
 
 struct BalanceFault {

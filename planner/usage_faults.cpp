@@ -68,6 +68,15 @@ std::string option_before_command(const CLI::App& command, int count, char** wor
   return "";
 }
 
+/// "--svg: At Most 1 required but received 2", "--svg: 1 required FILE missing"
+std::string wrong_count(const std::string& message) {
+  const std::string option = message.substr(0, message.find(':'));
+  if (message.find("At Most 1 required") != std::string::npos) return option + " is given more than once";
+  const std::size_t missing = message.rfind(" missing"), before = message.rfind(' ', missing - 1);
+  if (missing == std::string::npos || before == std::string::npos) return message;
+  return fmt::format("{}: expected {} behind it", option, message.substr(before + 1, missing - before - 1));
+}
+
 /// Words that the command knows nothing of, with what may have been meant.
 std::string extra_words(const CLI::App& app, const CLI::App& command, int count, char** words) {
   if (const std::string early = option_before_command(command, count, words); !early.empty())
@@ -101,6 +110,7 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const CLI::App* chosen = parsed.empty() ? nullptr : parsed.front();
   if (count > 1 && std::string_view(words[1]) == "help") return "expected surefoot --help, or surefoot COMMAND --help";
+  if (count > 1 && std::string_view(words[1]) == "version") return "expected surefoot --version";
   if (chosen == nullptr && count > 1 && words[1][0] != '-') {
     const std::vector<std::string> commands = command_names(app);
     const std::string meant = terrain::near_miss(words[1], commands);
@@ -114,8 +124,12 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
     return fmt::format("{}: found {}, expected a {}number",
                        message.substr(unconverted.size(), equals - unconverted.size()), message.substr(equals + 3),
                        is_number(message.substr(equals + 3)) ? "whole " : "");
-  const bool extra = dynamic_cast<const CLI::ExtrasError*>(&fault) != nullptr;
-  return extra ? extra_words(app, *chosen, count, words) : message;
+  if (dynamic_cast<const CLI::ExtrasError*>(&fault) != nullptr) return extra_words(app, *chosen, count, words);
+  if (dynamic_cast<const CLI::RequiredError*>(&fault) != nullptr && message.ends_with(" is required"))
+    return fmt::format("{} is missing (surefoot {} --help tells more)", message.substr(0, message.find(' ')),
+                       chosen->get_name());
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&fault) != nullptr) return wrong_count(message);
+  return message;
 }
 
 std::string empty_argument(const CLI::App& app) {

@@ -75,7 +75,9 @@ int run_validate(const ValidateArguments& arguments) {
   if (std::count(scenes.begin(), scenes.end(), "-") > 1)
     throw terrain::InputError("only one scene can be read from standard input");
   if (arguments.svg && scenes.size() > 1) throw terrain::InputError("--svg: only of one scene");
-  FigureOutputs picture({{"--svg", arguments.svg}}, scene_file(scenes.front()));
+  std::optional<std::string> drawn;
+  if (arguments.svg) drawn = scene_file(scenes.front());
+  FigureOutputs picture({{"--svg", arguments.svg}}, drawn);
   bool all = true;
   for (const std::string& path : scenes) {
     std::string report;

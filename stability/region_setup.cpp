@@ -49,7 +49,9 @@ RegionSetup::RegionSetup(std::span<const Contact> contacts, double rho, const Wr
   polygon = equilibrium_polygon(planes, contacts, rho, options, window);
   const double found = polygon.corner.size() < 3 ? 0 : area_of(polygon.corner);
   if (!(found > 0)) {
-    problem = "no COM can be balanced under every wrench of W";
+    problem = "no COM ";
+    if (options.window) problem += "in the window ";
+    problem += box.one_wrench() ? "can be balanced under this wrench" : "can be balanced under every wrench of W";
     return;
   }
   if (!std::isfinite(found)) {

@@ -19,11 +19,15 @@ std::errc convert(std::string_view text, Number& value) {
   return std::from_chars(text.data(), text.data() + text.size(), value).ec;
 }
 
-/// Of `keys` the one that an unknown key stands for: written without a space behind its colon, or misspelt.
+/// Of `keys` the one that an unknown key stands for: written without a space behind its colon, misspelt or cut short.
 std::string meant_by(std::string_view unknown, const std::vector<std::string>& keys) {
+  constexpr std::size_t least_letters = 3;
   const std::string_view before_colon = unknown.substr(0, unknown.find(':'));
   if (std::find(keys.begin(), keys.end(), before_colon) != keys.end()) return std::string(before_colon);
-  return near_miss(unknown, keys);
+  if (std::string near = near_miss(unknown, keys); !near.empty()) return near;
+  const auto begun = [&](const std::string& key) { return key.starts_with(std::string(unknown) + '_'); };
+  const auto longer = std::find_if(keys.begin(), keys.end(), begun);  // "com" for "com_x"
+  return unknown.size() >= least_letters && longer != keys.end() ? *longer : "";
 }
 
 std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
@@ -126,7 +130,7 @@ std::int64_t Node::integer(std::string_view what) const {
     fail(std::string(what) + ": " + shown(text) + " has a leading zero; expected an integer without");
   }
   if (form != NumberForm::integer)
-    fail(std::string(what) + ": " + shown(text) + " is not an integer; expected an integer");
+    fail(std::string(what) + ": " + shown(text) + " is not an integer; expected a whole number such as 7");
   std::int64_t value = 0;
   if (convert(text, value) != std::errc()) {
     fail(std::string(what) + ": " + shown(text) + " is out of range; expected an integer of at most 63 bits");
@@ -157,8 +161,11 @@ bool Node::is_integer() const {
 std::string Node::list_advice(std::size_t n) const {
   if (kind() == Kind::scalar)
     return n == 2 ? " in square brackets, [a, b]" : n == 3 ? " in square brackets, [a, b, c]" : "";
-  if (kind() != Kind::sequence || n == 0 || std::get<Items>(content_).size() != 2 * n) return "";
+  if (kind() != Kind::sequence || n == 0) return "";
   const Items& items = std::get<Items>(content_);
+  const auto* only = items.size() == 1 ? std::get_if<std::string_view>(&items.front().content_) : nullptr;
+  if (only != nullptr && only->find(';') != std::string_view::npos) return "; a comma parts them, no semicolon";
+  if (items.size() != 2 * n) return "";
   std::string meant;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (!items[i].is_integer()) return "";
@@ -183,6 +190,8 @@ const std::vector<Node>& Node::items(std::string_view what, std::size_t n) const
 
 const std::vector<std::pair<Node, Node>>& Node::entries(std::string_view what) const {
   if (is_null() && source_ && !is_flow_text(*source_)) refuse(what, "a map (key: value), indented below it");
+  if (kind() == Kind::scalar && std::get<std::string_view>(content_).find(':') != std::string_view::npos)
+    refuse(what, "a map (key: value), with a space behind each colon");
   if (kind() != Kind::map) refuse(what, "a map (key: value)");
   return std::get<Entries>(content_);
 }

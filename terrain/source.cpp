@@ -101,7 +101,8 @@ void Source::check_characters() const {
     const std::size_t length = sequence_length(text, i);
     if (length == 0) fail_at(i, "byte " + hexadecimal(byte_at(text, i)) + " is not UTF-8 text");
     if (length == 1 && is_control(text, i)) {
-      fail_at(i, "control character " + hexadecimal(byte_at(text, i)) + "; expected text");
+      fail_at(i, "control character " + hexadecimal(byte_at(text, i)) +
+                     (text[i] == '\r' ? "; lines must end in LF or CR LF, not in CR alone" : "; expected text"));
     }
     i += length;
   }

@@ -54,6 +54,7 @@ std::string unclosed(const Source& source, char bracket, const char* what, std::
 }
 
 constexpr const char* space_after_colon = "; a space must follow a colon";
+constexpr const char* no_break_space = "; a no-break space (U+00A0) stands in the indentation: write ordinary spaces";
 constexpr const char* same_column = "; keys of one map, or dashes of one list, begin in the same column";
 
 /// The parser wanted the next key or dash of a block, and found something else.
@@ -61,6 +62,7 @@ std::string misplaced(const Source& source, std::size_t position) {
   if (source.text.substr(position, 1) == ",") return "; a list of several on one line stands in square brackets";
   const std::string_view from = std::string_view(source.text).substr(position - source.line_before(position).size());
   const std::string_view line = content(from.substr(0, from.find('\n')));
+  if (line.starts_with("\u00a0")) return no_break_space;
   if (!has_key(line) && has_close_colon(line)) return space_after_colon;  // the line that it stopped at
   const std::string advice = advice_on_line_above(source, position);
   return advice.empty() ? same_column : advice;

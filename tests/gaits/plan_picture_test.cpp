@@ -201,6 +201,10 @@ TEST_CASE("limits are spelled out with the legs they mean", "[plan_text]") {
                     "      transfer of step 1-6\n") != std::string::npos);
   REQUIRE(text.find("equilibrium on legs 1 2: the feet cannot balance a larger disturbance\n"
                     "      stance of step 1, 4, end\n") != std::string::npos);
+  Plan last = long_walk(scene, 1, 0);
+  last.stances.back().limit = "FF";
+  REQUIRE(to_text(scene, last, {.colour = false, .explain = true})
+              .find(": both feet break away\n      the last stance\n") != std::string::npos);
 }
 
 TEST_CASE("the picture is well-formed, without scripts, and shows every stance once", "[plan_svg]") {

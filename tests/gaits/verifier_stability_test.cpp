@@ -113,6 +113,10 @@ TEST_CASE("a false factor is told of a stance that fails by another criterion, n
   plan.stances[1].safety_factor = 99;
   require_fault(verify(scene, plan), Rule::stance_stability, "stance 2", "not frictionally stable");
   require_fault(verify(scene, plan), Rule::stance_stability, "stance 2", "the stated safety factor is 99");
+  // What the plan only states wrongly comes last.
+  const std::vector<Fault> faults = verify(scene, plan).faults;
+  CHECK(faults.back().message.starts_with("the stated safety factor"));
+  CHECK_FALSE(faults.front().stated);
   scene.criterion = Criterion::robust;
   scene.restitution.reset();
   plan = plan_by_hand(scene);

@@ -77,6 +77,10 @@ TEST_CASE("What is neither file nor canned scene is answered with the nearest", 
   }
   CHECK_THAT(place.run("plan nothing_like_any").err,
              Catch::EndsWith("no such file or canned scene (surefoot maps lists those)\n"));
+  std::filesystem::create_symlink(place / "nowhere.yaml", place / "link.yaml");
+  CHECK_THAT(place.run("plan link.yaml").err, Catch::EndsWith("link.yaml: is a symbolic link that leads nowhere\n"));
+  CHECK(place.run("validate nothing_like_any").out ==
+        "nothing_like_any: no such file or canned scene (surefoot maps lists those)\n");
   CHECK_THAT(place.run("plan stairs").err, Catch::Contains("did you mean stairs_down or stairs_up?"));
   CHECK_THAT(place.run("mpas").err, Catch::Contains("did you mean maps?"));
 }

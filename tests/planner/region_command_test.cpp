@@ -163,3 +163,24 @@ TEST_CASE("With a restitution the regions of frictional stability are told, writ
   CHECK(three.err.find("about two contacts, there are 3; expected two legs, for example --stance 1,2") !=
         std::string::npos);
 }
+
+TEST_CASE("Where there is no region it is said within what and of which wrenches", "[region]") {
+  const Workplace place;
+  const std::string scene = " " SUREFOOT_MAPS "/vee.yaml";
+  CHECK_THAT(place.run("region" + scene + " --window 90,90,91,91").out,
+             Catch::Contains("\nno COM in the window can be balanced under every wrench of W\n"));
+  CHECK_THAT(place.run("region" + scene + " --window 90,90,91,91 --wrench 0,0").out,
+             Catch::Contains("\nno COM in the window can be balanced under this wrench\n"));
+}
+
+TEST_CASE("Frictional stability of a scene whose stance is not chosen is asked for by --stance", "[region]") {
+  const Workplace place;
+  std::string text = place.shell("cat '" SUREFOOT_MAPS "/flat.yaml'").out;
+  text += "\nstability: {criterion: frictional, restitution: 0.1}\n";
+  if (const auto at = text.find("  support:"); at != std::string::npos) text.erase(at, text.find('\n', at) - at);
+  place.write("s.yaml", text);
+  CHECK_THAT(place.run("region s.yaml").err, Catch::Contains("--stance LEG,LEG shows where it holds"));
+  const auto chosen = place.run("region s.yaml --stance 1,2");
+  CHECK(chosen.err.empty());
+  CHECK_THAT(chosen.out, Catch::Contains("both: frictionally stable"));
+}

@@ -44,6 +44,13 @@ TEST_CASE("Terrains in millimetres are remarked on, large ones are not", "[valid
   CHECK_THAT(told("[[-1000, 0], [500, 0], [500, 150], [900, 150], [4000, 0]]"),
              Catch::Contains(
                  "remark: no segment of the terrain is shorter than 150 m, and the greatest reach is 0.9 m"));
+  const auto far_feet = with("{x: -0.3}, {x: 0.25}, {x: 0}", "{x: -300}, {x: 250}, {x: 0}",
+                             with("[[-1, 0], [4, 0]]", "[[-1000, 0], [4000, 0]]"));
+  place.write("s.yaml", far_feet);
+  CHECK_THAT(place.run("validate s.yaml").out, Catch::Contains("expected at most 1.8 (are all in metres?)"));
+  place.write("s.yaml", with("[0.2, 0.9]", "[200, 900]", with("0.15", "150", far_feet)));
+  CHECK_THAT(place.run("validate s.yaml").out,
+             Catch::Contains("remark: the greatest reach is 900 m: are all lengths, nu"));
   for (const std::string large :
        {"[[-1000, 0], [4000, 0]]", "[[-1000, 0], [500, 0], [500, 0.15], [900, 0.15], [4000, 0]]",
         "[[-1, 1], [-1, 0], [99, 0], [99, 1]]", "[[-99, 0], [99, 0], [199, 5], [299, 0]]",
@@ -112,6 +119,7 @@ TEST_CASE("A scene in order is drawn on request, with or without a plan for it",
   CHECK_THAT(run.out, Catch::StartsWith("gap.yaml: valid: "));
   const std::string svg = place.read("gap.svg");
   CHECK_THAT(svg, Catch::Contains("<title>gap</title>") && Catch::Contains(">goal</text>"));
+  CHECK_THAT(svg, !Catch::Contains("R_SS") && !Catch::Contains("COM by step"));  // of plans
   CHECK(place.run("validate gap.yaml --svg -").out == svg);
   const auto files = place.count();
   CHECK(place.run("validate gap.yaml gap.yaml --svg two.svg").status == 2);
@@ -224,6 +232,12 @@ TEST_CASE("A start that cannot stand is refused with its cause by plan and valid
   // Friction that just bears kappa is no fault of the start.
   place.write("s.yaml", with("kappa: 0.1", "kappa: 0.59"));
   CHECK_THAT(place.run("validate s.yaml").out, Catch::EndsWith("start stands\n"));
+}
+
+TEST_CASE("A given COM in solid ground is told so", "[validate]") {
+  const Workplace place;
+  place.write("s.yaml", with("  support", "  com: [0, -0.3]\n  support"));
+  CHECK(place.run("validate s.yaml").out == "s.yaml:10:8: start: the COM lies behind chain 0, in solid ground\n");
 }
 
 TEST_CASE("A given COM that balances nowhere near is told where it would", "[validate]") {

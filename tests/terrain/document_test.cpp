@@ -91,7 +91,7 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"a: 1\n\x04"
        "b: 2\n",
        "f.yaml:2:1: control character 0x04; expected text"},  // ends yaml-cpp's input
-      {"a: 1\rb: 2\r", "f.yaml:1:5: control character 0x0d; expected text"},
+      {"a: 1\rb: 2\r", "f.yaml:1:5: control character 0x0d; lines must end in LF or CR LF, not in CR alone"},
   };
   for (const auto& [text, message] : refusals) {
     CAPTURE(text);
@@ -136,6 +136,7 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
       {"c:\n  -v: 1\n    s: 1\n", "on line 2 a space must follow the dash"},
       // Indentation.
       {"t:\n  f: 0.6\n c: 1\n", "keys of one map, or dashes of one list, begin in the same column"},
+      {"t:\n  f: 0.6\n \u00a0c: 1\n", "a no-break space (U+00A0) stands in the indentation: write ordinary spaces"},
       {"t:\n\tf: 0.6\n", "a tab stands in the indentation: indent by spaces"},
       {"a: - b\n", "a dash of a list stands at the beginning of its line"},
   };
@@ -186,6 +187,7 @@ TEST_CASE("a comma for a point is found where it parts a list or a map", "[docum
   CHECK(items("0.1, 0.9") == "f.yaml:1:1: x: 0.1, 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
   CHECK_THAT(error_of([&] { parse("1, 2, 3").root().items("x", 3); }),
              Catch::EndsWith("expected a list of 3 items in square brackets, [a, b, c]"));
+  CHECK_THAT(items("[-2; 0]"), Catch::EndsWith("expected a list of 2 items; a comma parts them, no semicolon"));
   CHECK(items("0.1 - 0.9") ==
         "f.yaml:1:1: x: 0.1 - 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
   CHECK(items("(1, 2)") == "f.yaml:1:1: x: (1, 2) is given; expected a list of 2 items in square brackets, [a, b]");
@@ -319,8 +321,9 @@ TEST_CASE("bounds, integers, booleans and texts say what they expect", "[documen
   CHECK(error_of([&] { at("big").integer("seed"); }) ==
         "f.yaml:1:40: seed: 9223372036854775808 is out of range; expected an integer of at most 63 bits");
   const auto tail = [](const std::string& message) { return message.substr(message.find("x: ")); };
-  CHECK(tail(error_of([&] { at("half").integer("x"); })) == "x: 0.5 is not an integer; expected an integer");
-  CHECK(tail(error_of([&] { at("e").integer("x"); })) == "x: 1e3 is not an integer; expected an integer");
+  CHECK(tail(error_of([&] { at("half").integer("x"); })) ==
+        "x: 0.5 is not an integer; expected a whole number such as 7");
+  CHECK(tail(error_of([&] { at("e").integer("x"); })) == "x: 1e3 is not an integer; expected a whole number such as 7");
   CHECK(tail(error_of([&] { at("octal").integer("x"); })) == "x: 010 has a leading zero; expected an integer without");
   CHECK(at("t").boolean("x"));
   CHECK_FALSE(at("f").boolean("x"));
@@ -340,6 +343,8 @@ TEST_CASE("bounds, integers, booleans and texts say what they expect", "[documen
         "x: nothing is given; expected a map (key: value), indented below it");
   CHECK(error_of([] { parse("x:\ny: 1").root().find("x")->entries("x"); }) ==
         "f.yaml:1:1: x: nothing is given; expected a map (key: value), indented below it");
+  CHECK(error_of([] { parse("a:1\nb:2").root().entries("x"); }) ==
+        "f.yaml:1:1: x: a:1 b:2 is given; expected a map (key: value), with a space behind each colon");
   CHECK(error_of([] { parse("{\"x\": null}").root().find("x")->entries("x"); }) ==
         "f.yaml:1:7: x: nothing is given; expected a map (key: value)");
   CHECK(tail(error_of([&] { root.require("absent", "x"); })) == "x: \"absent\" is missing");
@@ -386,6 +391,12 @@ TEST_CASE("unknown keys are refused with the nearest known one", "[document]") {
   const auto refuse = [](const std::string& text) {
     return error_of([&] { parse(text).root().allow_only({"friction", "chains"}, "terrain"); });
   };
+  CHECK(error_of([&] {
+          parse("com: 1").root().allow_only({"com_x", "com_y"}, "goal");
+        }) == "f.yaml:1:1: goal: unknown key \"com\"; did you mean \"com_x\"?");
+  CHECK(error_of([&] {
+          parse("co: 1").root().allow_only({"co_x", "co_y"}, "goal");
+        }) == "f.yaml:1:1: goal: unknown key \"co\"; expected one of: co_x, co_y");  // too short to tell
   CHECK(refuse("{friction: 1, chains: 2}") == "no error");
   CHECK(refuse("{}") == "no error");
   CHECK(refuse("friction: 1\nfricton: 2\n") ==

@@ -109,7 +109,7 @@ TEST_CASE("every fault of a terrain block has its place and words", "[loader]") 
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {-1: {friction: 1}}"),
        "5:16: segment index: -1 is out of range; expected 0 to 0"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {first: {friction: 1}}"),
-       "5:16: segment index: first is not an integer; expected an integer"},
+       "5:16: segment index: first is not an integer; expected a whole number such as 7"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {0: {}, 0: {}}"),
        "5:23: key \"0\" is given twice; first at line 5"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {0: {}, +0: {}}"), "5:23: segment index: 0 is given twice"},

@@ -145,7 +145,7 @@ fi
 
 # With everything installed.
 for package in g++ cmake ninja-build libeigen3-dev libompl-dev libboost-dev libnlopt-dev \
-  libnlopt-cxx-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgmp-dev catch2 libglpk-dev; do
+  libnlopt-cxx-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgmp-dev catch2 libglpk-dev libbenchmark-dev; do
   echo "$package installed"
 done >"$installed"
 rm -rf "$tree/build"

@@ -76,6 +76,9 @@ void legend(SvgCanvas& canvas, const Page& page, const Plan& plan, const Weakest
     entry(key.label, [&](const Vector2d& at) {
       canvas.line(at, at + across, key.paint);
       if (key.overlay) canvas.line(at, at + across, *key.overlay);
+      if (key.hatching)
+        for (double right = 6; right <= across.x(); right += 5)
+          canvas.line(at + Vector2d(right, 0), at + Vector2d(right - 5, 5), *key.hatching);
     });
 }
 

@@ -15,6 +15,7 @@ constexpr Paint ground{.fill = "#e9e4da"};
 constexpr Paint usual_stroke{.stroke = "#4d4d4d", .width = 2.4};
 constexpr Paint less_stroke{.stroke = "#56b4e9", .width = 3.4};
 constexpr Paint more_stroke{.stroke = "#8c510a", .width = 3.4};
+constexpr Paint hatching{.stroke = "#8a8578", .width = 1};
 constexpr Paint no_foothold{.stroke = "#fff", .width = 1.6, .dash = "2 5"};
 
 bool contains(const Polyline& polygon, const Eigen::Vector2d& p) {
@@ -122,7 +123,7 @@ void TerrainPicture::hatch(SvgCanvas& canvas, const View& view, const Eigen::Ali
     const int ticks = static_cast<int>(std::min(1e4, segment.length * view.scale / spacing));
     for (int k = 0; k < ticks; ++k) {
       const Eigen::Vector2d foot = segment.a + segment.tangent * (segment.length * (k + 0.7) / std::max(1, ticks));
-      if (window.contains(foot)) canvas.line(view(foot), view(foot + slant), {.stroke = "#8a8578", .width = 1});
+      if (window.contains(foot)) canvas.line(view(foot), view(foot + slant), hatching);
     }
   }
 }
@@ -179,6 +180,9 @@ std::vector<TerrainPicture::Key> TerrainPicture::legend() const {
   const auto barred = [](const Segment& s) { return !s.surface.foothold; };
   if (std::any_of(terrain_.segments().begin(), terrain_.segments().end(), barred))
     keys.push_back({usual_stroke, no_foothold, "no foothold"});
+  const auto hatched = [](const Polyline& solid) { return solid.empty(); };
+  if (std::any_of(solids_.begin(), solids_.end(), hatched))
+    keys.push_back({usual_stroke, {}, "hatched: the solid side", hatching});
   return keys;
 }
 

@@ -43,6 +43,7 @@ class TerrainPicture {
     Paint paint;
     std::optional<Paint> overlay;
     std::string label;
+    std::optional<Paint> hatching = {};  ///< on its lower side
   };
   /// What the strokes mean, as far as this terrain uses them.
   std::vector<Key> legend() const;

@@ -212,7 +212,7 @@ int run(int count, char** words) {
   }
   try {
     app.parse(count, words);
-    if (const std::string fault = empty_argument(app); !fault.empty()) throw InputError(fault);
+    if (const std::string fault = argument_fault(app, count, words); !fault.empty()) throw InputError(fault);
   } catch (const CLI::CallForHelp&) {
     write_stdout(app.help());
     return exit_success;

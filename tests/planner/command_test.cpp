@@ -367,6 +367,7 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
     CHECK(run.status == 2);
     CHECK(run.err == "surefoot: error: " + name + " is an empty text\n");
   }
+  CHECK_THAT(place.run("plan x -o=x.json").err, Catch::EndsWith("error: -o=x.json: expected -o x.json\n"));
   CHECK_THAT(place.run("version").err, Catch::EndsWith("expected surefoot --version\n"));
   CHECK_THAT(place.run("plan").err, Catch::EndsWith("SCENE is missing (surefoot plan --help tells more)\n"));
   CHECK_THAT(place.run("plan x --svg").err, Catch::EndsWith("error: --svg: expected FILE behind it\n"));

@@ -120,6 +120,10 @@ TEST_CASE("A scene in order is drawn on request, with or without a plan for it",
   const std::string svg = place.read("gap.svg");
   CHECK_THAT(svg, Catch::Contains("<title>gap</title>") && Catch::Contains(">goal</text>"));
   CHECK_THAT(svg, !Catch::Contains("R_SS") && !Catch::Contains("COM by step"));  // of plans
+  CHECK_THAT(svg, !Catch::Contains("hatched"));
+  place.write("room.yaml",
+              with("[[-1, 0], [4, 0]]", "[[-1, 0], [4, 0]]\n    - vertices: [[5, 1], [6, 1], [6, 2], [5, 2], [5, 1]]"));
+  CHECK_THAT(place.run("validate room.yaml --svg -").out, Catch::Contains(">hatched: the solid side</text>"));
   CHECK(place.run("validate gap.yaml --svg -").out == svg);
   const auto files = place.count();
   CHECK(place.run("validate gap.yaml gap.yaml --svg two.svg").status == 2);

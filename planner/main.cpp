@@ -186,7 +186,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   simulate->add_option("--json", a.json, "outcome and events; - for standard output")->type_name("FILE");
   simulate->footer(
       "Exit status: 0 done, whatever the outcome, 2 bad input or usage.\n"
-      "Example: surefoot simulate docs/examples/pushed_vee.json --heights 1e-3,2e-3,0 --svg motion.svg");
+      "Example: surefoot simulate --scene vee --com=-0.2,0.2 --q-rate 0,0.05,0.1 --restitution 0.3 --svg motion.svg");
   return simulate;
 }
 

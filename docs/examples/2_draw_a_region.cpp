@@ -26,7 +26,10 @@ int main(int count, char** words) {
   for (const stability::ModeShare& share : region.modes)
     std::printf("%s is possible in %.5f m2\n", share.mode.name().c_str(), share.area);
 
-  std::ofstream file(count > 1 ? words[1] : "region.svg");
+  const char* const picture = count > 1 ? words[1] : "region.svg";
+  std::ofstream file(picture);
   file << gaits::to_svg(figure, region);
-  return file.flush() ? 0 : 1;
+  if (file.flush()) return 0;
+  std::fprintf(stderr, "cannot write %s\n", picture);
+  return 1;
 }

@@ -33,7 +33,9 @@ int main(int count, char** words) try {
 
   std::ofstream file(words[2]);
   file << gaits::to_json(plan);
-  return file.flush() ? 0 : 1;
+  if (file.flush()) return 0;
+  std::fprintf(stderr, "cannot write %s\n", words[2]);
+  return 1;
 } catch (const terrain::InputError& fault) {
   std::fprintf(stderr, "%s\n", fault.what());  // file:line:column: what is wrong with the scene
   return 2;

@@ -6,7 +6,12 @@ set -euo pipefail
 
 source=$1 build=$2 cxx=$3
 work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
+# The user's own list of what is installed, by which docs/library.md uninstalls, is not written: a component, be it that
+# of all that names none, has a list of its own.
+component=Unspecified
+trap 'rm -rf -- "$work" "$build/install_manifest_$component.txt"' EXIT
+manifest() { stat -c '%y %i' "$build/install_manifest.txt" 2>/dev/null || echo none; }
+manifest_before=$(manifest)
 prefix=$work/prefix
 failures=0
 fail() {
@@ -16,7 +21,8 @@ fail() {
 
 quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" && echo "FAILED: $*" && exit 1; }; }
 
-quietly cmake --install "$build" --prefix "$prefix"
+quietly cmake --install "$build" --prefix "$prefix" --component "$component"
+[[ $(manifest) == "$manifest_before" ]] || fail "install_manifest.txt is not as it was"
 grep -rIl -e "$source" -e "$build" "$prefix" && fail "these installed files name the source or build tree"
 
 for file in bin/surefoot share/man/man1/surefoot.1 share/bash-completion/completions/surefoot share/surefoot/maps/flat.yaml; do
@@ -41,6 +47,18 @@ for example in "$source"/docs/examples/*.cpp; do
 done
 grep -q '</svg>' "$work/region.svg" || fail "2_draw_a_region draws nothing"
 "$prefix/bin/surefoot" check maps/flat.yaml "$work/plan.json" || fail "3_plan_and_verify writes a plan that does not hold"
+nowhere=$work/nowhere/file
+for words in "2_draw_a_region $nowhere" "3_plan_and_verify maps/flat.yaml $nowhere"; do
+  # shellcheck disable=SC2086
+  ! "$work/build/"$words >/dev/null 2>"$work/err" || fail "$words: status 0"
+  [[ $(<"$work/err") == "cannot write $nowhere" ]] || fail "$words: says '$(<"$work/err")'"
+done
+
+# The example of the help works anywhere.
+example=$("$prefix/bin/surefoot" simulate --help | sed -n 's/^Example: surefoot //p')
+[[ $example == simulate\ * ]] || fail "simulate --help gives no example"
+# shellcheck disable=SC2086
+(cd "$work" && "$prefix/bin/surefoot" $example >printed 2>&1) || { cat "$work/printed" && fail "$example"; }
 
 # The project that docs/library.md shows, with the README's program.
 mkdir -p "$work/robot"
@@ -61,12 +79,14 @@ configure() { # configure COMPONENT TARGET
     "find_package(surefoot 0.1 REQUIRED COMPONENTS $1)" 'add_executable(user user.cpp)' \
     "target_link_libraries(user PRIVATE surefoot::$1)" >"$work/$1/CMakeLists.txt"
   cp "$source/docs/examples/1_ask_the_oracle.cpp" "$work/$1/user.cpp"
-  cmake -S "$work/$1" -B "$work/$1/build" -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$prefix" "${@:2}" >"$work/log" 2>&1
+  cmake -G Ninja -S "$work/$1" -B "$work/$1/build" -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$prefix" "${@:2}" >"$work/log" 2>&1
 }
 configure stability -DCMAKE_DISABLE_FIND_PACKAGE_ompl=ON -DCMAKE_DISABLE_FIND_PACKAGE_NLopt=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_yaml-cpp=ON -DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON || { cat "$work/log" && fail "stability alone"; }
 ! configure planner -DCMAKE_DISABLE_FIND_PACKAGE_ompl=ON || fail "the planner does without OMPL"
-! configure walking || fail "an unknown component is found"
+! configure stabilty || fail "an unknown component is found"
+grep -qF "no component stabilty; there are terrain, stability, gaits, planner" <(tr -s ' \n' ' ' <"$work/log") ||
+  { cat "$work/log" && fail "an unknown component is not named"; }
 
 # Every installed header compiles alone, and finds all it includes among those installed. A header that its source file
 # includes first was compiled alone when that was built.

@@ -7,6 +7,7 @@
 #   ```yaml                                                    is a scene in order
 #   ```python                                                  runs, where python3 is there
 #   ```cpp of the README, ```cmake of library.md               are left to tests/install/outside_test.sh; others are refused
+#   cmake commands that configure, those of the tests too      use Ninja: make is in no package list
 #   the rows of papers.md                                      name functions and tests that are there
 # Usage: docs_test.sh SOURCE_DIR PROGRAM
 set -uo pipefail
@@ -102,6 +103,8 @@ for block in "$work"/blocks/*; do
     *.cpp | *.cmake) fail "$place: nothing builds it" ;;
   esac
 done
+! (cd "$source" && grep -rnE 'cmake .*-[SB] ' --include=*.{md,sh,txt} README.md docs bench tests | grep -vE -- '-G Ninja|grep ') ||
+  fail "these configure without -G Ninja"
 # docs/papers.md: each row's function and test are where it says.
 rows=0
 while IFS='|' read -r _ statement function file test test_file _; do

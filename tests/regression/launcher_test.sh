@@ -9,6 +9,7 @@ trap 'rm -rf -- "$work"' EXIT
 tree="$work/a tree" fakes=$work/fakes
 calls=$work/calls installed=$work/installed
 failures=0
+ctest --help >"$work/ctest_help"
 
 expect() { # expect CLAIM COMMAND...
   local claim=$1
@@ -36,6 +37,7 @@ says() { grep -qF -- "$1" "$work/err"; }
 prints() { [[ $(<"$work/out") == "$1" ]]; }
 stamped() { [[ -f "$tree/build/release/.built" ]]; }
 nothing_called() { [[ ! -s $calls ]]; }
+says_only() { [[ $(<"$work/err") == "surefoot: $1" ]]; }
 
 as_user=()
 mkdir -p "$fakes" "$tree"/{terrain,stability,gaits,planner,tests}
@@ -48,6 +50,7 @@ if [[ $1 == --preset ]]; then
   printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\n' "$PWD" >"$dir/CMakeCache.txt"
   [[ $* != *TESTS=ON* ]] || echo SUREFOOT_TESTS:BOOL=ON >>"$dir/CMakeCache.txt"
 else
+  trap 'sleep 0.3; exit 1' INT TERM HUP # as ninja, which waits for its compilers
   sleep "${FAKE_SECONDS:-0}"
   if [[ -n ${FAKE_ERROR-} ]]; then echo "terrain.cpp:1: error: $FAKE_ERROR"; exit 1; fi
   mkdir -p "$dir/bin"
@@ -55,7 +58,8 @@ else
   chmod +x "$dir/bin/surefoot"
 fi
 END
-fake ctest <<'END'
+fake ctest <<END
+[[ \$* != --help ]] || exec cat "$work/ctest_help"
 echo "100% tests passed"
 END
 fake dpkg-query <<END
@@ -141,7 +145,7 @@ fi
 
 # With everything installed.
 for package in g++ cmake ninja-build libeigen3-dev libompl-dev libboost-dev libnlopt-dev \
-  libnlopt-cxx-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgmp-dev catch2 libglpk-dev; do
+  libnlopt-cxx-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgmp-dev catch2 libglpk-dev libbenchmark-dev; do
   echo "$package installed"
 done >"$installed"
 rm -rf "$tree/build"
@@ -149,6 +153,8 @@ rm -rf "$tree/build"
 FAKE_ERROR="no such thing" run plan x
 expect "a failed build: status 4" test "$status" -eq 4
 expect "a failed build shows the compiler's error" says "error: no such thing"
+expect "a failed build shows it before it is called one" \
+  eval '[[ $(<"$work/err") == *"no such thing"*"the build failed"* ]]'
 expect "a failed build says where the log is" says "$tree/build/release/build.log"
 expect "a failed build leaves no stamp" eval '! stamped'
 
@@ -187,21 +193,98 @@ wait
 expect "two first calls build once" test "$(grep -c -- "cmake --build" "$calls")" -eq 1
 expect "and both run" test "$(<"$work/out1")$(<"$work/out2")" = "[$work][plan][1][$work][plan][2]"
 
-# Ctrl-C while it builds. (A background process of a script ignores it unless told otherwise.)
-rm -rf "$tree/build"
-(cd "$work" && FAKE_SECONDS=2 PATH="$fakes:$PATH" exec env --default-signal=INT setsid "$tree/surefoot" plan x) \
-  >"$work/out" 2>"$work/err" </dev/null &
-interrupted=$!
-for ((i = 0; i < 100; ++i)); do says "building in" && break || sleep 0.05; done
-sleep 0.3
-kill -INT -- "-$interrupted"
-wait "$interrupted"
-status=$?
-expect "an interrupted build: status 130" test "$status" -eq 130
-expect "an interrupted build is not called a failure" eval '! says "build failed"'
-expect "an interrupted build leaves no stamp" eval '! stamped'
+# Signals while it builds, to the launcher alone or, as Ctrl-C sends them, to the group that a terminal knows. (A
+# background process of a script ignores INT unless told otherwise.)
+running() { grep -lsz "^FAKE_SECONDS=$1\$" /proc/[0-9]*/environ; }
+build_in_background() { # build_in_background SECONDS: from nothing; its process in $builder
+  rm -rf "$tree/build"
+  : >"$calls"
+  (cd "$work" && FAKE_SECONDS=$1 PATH="$fakes:$PATH" exec env --default-signal=INT setsid "$tree/surefoot" plan x) \
+    >"$work/out" 2>"$work/err" </dev/null &
+  builder=$!
+  for ((i = 0; i < 200; ++i)); do called "cmake --build" && break || sleep 0.05; done
+  sleep 0.1
+  expect "something is running" test -n "$(running "$1")"
+}
+for case in "INT 130 -" "INT 130" "TERM 143" "HUP 129"; do
+  read -r signal expected group <<<"$case"
+  build_in_background 97.$$
+  kill -s "$signal" -- "$group$builder"
+  wait "$builder"
+  status=$?
+  expect "SIG$signal: nothing is left running" test -z "$(running 97.$$)"
+  expect "SIG$signal: status $expected" test "$status" -eq "$expected"
+  expect "SIG$signal: one line says so" eval \
+    '[[ $(tail -n +2 "$work/err") == "surefoot: interrupted; the next call goes on building" ]]'
+  expect "SIG$signal: the build leaves no stamp" eval '! stamped'
+done
 run plan x
 expect "and the next call builds" called "cmake --build"
+
+build_in_background 1.$$
+stopped() {
+  local processes
+  mapfile -t processes < <(running 1.$$)
+  ((${#processes[@]} > 3)) && ! cat "${processes[@]/%environ/stat}" | grep -qv ') T '
+}
+kill -s TSTP "$builder"
+for ((i = 0; i < 40; ++i)); do stopped && break || sleep 0.05; done
+expect "Ctrl-Z stops all of the build" stopped
+kill -s CONT "$builder"
+wait "$builder"
+status=$?
+expect "and fg goes on with it" test "$status" -eq 3
+
+# What cannot be written, because another user built first or owns the tree. Who is root becomes another user.
+if ((EUID != 0)) || command -v setpriv >/dev/null; then
+  ((EUID != 0)) || as_user=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+  chmod 755 "$work"
+  chmod 666 "$calls"
+  for foreign in build build/.lock build/release build/release/CMakeCache.txt; do
+    chmod -R a+w "$tree"
+    rm -rf "$tree/build"
+    mkdir -p "$tree/build/release"
+    touch "$tree"/build/{.lock,release/CMakeCache.txt}
+    chmod -R a+w "$tree"
+    chmod a-w "$tree/$foreign"
+    run plan x
+    expect "$foreign of another user: status 4" test "$status" -eq 4
+    expect "$foreign of another user: one line" \
+      says_only "error: cannot write to $tree/$foreign (does it belong to another user?)"
+  done
+  rm -rf "$tree/build"
+  chmod a-w "$tree"
+  for words in "plan x" test "bench verdict"; do
+    # shellcheck disable=SC2086
+    run $words
+    expect "tree of another user, $words: status 4" test "$status" -eq 4
+    expect "tree of another user, $words: one line" \
+      says_only "error: cannot write to $tree/build (does it belong to another user?)"
+  done
+  chmod -R u+w "$tree"
+  as_user=()
+fi
+
+# Misspelt items are refused before anything is built; which there are is taken from their registry.
+mkdir -p "$tree/bench/error_time"
+bench=${launcher%/*}/bench/error_time
+cp "$bench/registry.cpp" "$tree/bench/error_time/"
+for words in nosuch "verdict nosuch" "verdict --quick line nosuch"; do
+  # shellcheck disable=SC2086
+  run bench $words
+  expect "bench $words: status 2" test "$status" -eq 2
+  expect "bench $words: nothing is built" nothing_called
+  expect "bench $words: one line" \
+    says_only "error: unknown item 'nosuch'; there are $(sed -n 's/.*there are //p' "$work/err")"
+done
+items=$(sed -n 's/.*there are //p' "$work/err")
+expect "there are items" test "$(wc -w <<<"$items")" -ge 5
+for item in ${items//,/}; do
+  expect "$item is the name of ${item}_item" grep -q "Item${item}_item{\"$item\"" <(tr -d ' \n' <"$bench/$item.cpp")
+done
+run bench "${items%%,*}" --out nosuch
+expect "what follows an option is no item" called "cmake --preset bench"
+run plan x
 run bench --help
 expect "help on the benchmarks does not build them" not_called "cmake --preset bench"
 expect "help on the benchmarks is the program's" prints "[$work][bench][--help]"
@@ -217,6 +300,18 @@ run test -R "some name"
 expect "test builds the tests" called "SUREFOOT_TESTS=ON"
 expect "test passes arguments on" called "-R some name"
 expect "stdout of test is ctest's" prints "100% tests passed"
+for words in --nosuch "-R x --sanitize" "-j --progress --nosuch=3" "--repeat until-fail:2 -Z" --tests-regex=x; do
+  # shellcheck disable=SC2086
+  run test $words
+  expect "test $words: status 2" test "$status" -eq 2
+  expect "test $words: neither builds nor tests" eval 'not_called "cmake --" && not_called "ctest --test-dir"'
+  expect "test $words: one line" says_only \
+    "error: unknown option '${words##* }'; there are --sanitize, which comes first, and those of ctest --help"
+done
+words="-R -x -LE --no -j4 -DX=1 --no-tests=ignore --show-only=json-v1 -N --repeat until-pass:2 -VV --timeout 5 -I 1,2"
+# shellcheck disable=SC2086
+run test $words
+expect "options of ctest and their values are passed on" called " $words"
 run plan x
 expect "test builds the program too" nothing_called
 run test --sanitize

@@ -88,7 +88,7 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
   plan->footer(
       "Exit status: 0 solved, 1 no plan found within the limit, 2 bad input or usage, 3 proven infeasible.\n"
       "Ctrl-C ends the search with the best plan so far; a second one ends the program.\n"
-      "Example: surefoot plan maps/stairs_up.yaml -o plan.json --svg plan.svg --html plan.html");
+      "Example: surefoot plan stairs_up -o plan.json --svg plan.svg --html plan.html");
   return plan;
 }
 
@@ -100,7 +100,7 @@ CLI::App* add_check(CLI::App& app, CheckArguments& a) {
   check->add_option("--html", a.html, "make a page that plays it in a browser and lists its faults")->type_name("FILE");
   check->footer(
       "Exit status: 0 the plan holds, 1 it does not (one line per fault), 2 bad input or usage.\n"
-      "Example: surefoot check maps/stairs_up.yaml plan.json --html plan.html");
+      "Example: surefoot check stairs_up plan.json --html plan.html");
   return check;
 }
 
@@ -113,7 +113,7 @@ CLI::App* add_validate(CLI::App& app, Arguments& a) {
   validate->footer(
       "One line per fault (file:line:column: what), or one line that says what the scene holds.\n"
       "Exit status: 0 all scenes are in order, 2 one is not, or bad usage.\n"
-      "Example: surefoot validate maps/*.yaml");
+      "Example: surefoot validate scene.yaml other.yaml");
   return validate;
 }
 
@@ -148,7 +148,7 @@ CLI::App* add_region(CLI::App& app, RegionArguments& a) {
   region->add_option("--json", a.json, "cells, areas and boundaries; - for standard output")->type_name("FILE");
   region->footer(
       "Exit status: 0 done, 2 bad input or usage.\n"
-      "Example: surefoot region maps/vee.yaml --svg region.svg");
+      "Example: surefoot region vee --svg region.svg");
   return region;
 }
 

@@ -42,7 +42,7 @@ terrain::Document as_scene(terrain::Document document) {
 }
 
 // Advice where a key is missing.
-constexpr const char* a_version = "; add \"surefoot: 1\" as the first line";
+constexpr const char* a_version = "; add \"surefoot: 1\" at the top level";
 constexpr const char* no_disturbance = "; for none add \"disturbance: {kappa: 0, nu: 0}\"";
 constexpr const char* a_goal = "; add such as \"goal: {com_x: [1.5, 1.9]}\"";
 constexpr const char* a_terrain = "; add such as \"terrain: {friction: 0.6, chains: [{vertices: [[-1, 0], [3, 0]]}]}\"";

@@ -182,7 +182,7 @@ std::vector<TerrainPicture::Key> TerrainPicture::legend() const {
     keys.push_back({usual_stroke, no_foothold, "no foothold"});
   const auto hatched = [](const Polyline& solid) { return solid.empty(); };
   if (std::any_of(solids_.begin(), solids_.end(), hatched))
-    keys.push_back({usual_stroke, {}, "hatched: the solid side", hatching});
+    keys.push_back({usual_stroke, {}, "solid side", hatching});
   return keys;
 }
 

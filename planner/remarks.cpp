@@ -14,10 +14,10 @@ namespace surefoot::planner {
 
 namespace {
 
-/// A terrain whose vertices are in millimetres while feet, goal and robot are in metres: what is a fiftieth of a leg
-/// becomes 20 legs. A riser between two others betrays it: plains may be as long, and single slopes.
+/// A terrain whose vertices are in millimetres while feet, goal and robot are in metres: what is a twentieth of a leg
+/// becomes 50 legs. A riser between two others betrays it: plains may be as long, and single slopes.
 std::string scale_remark(const gaits::Scene& scene) {
-  constexpr double legs = 20;  // greatest reaches
+  constexpr double legs = 50;  // greatest reaches
   double least = std::numeric_limits<double>::infinity();
   bool riser = false;
   const auto& segments = scene.terrain.segments();
@@ -34,13 +34,15 @@ std::string scale_remark(const gaits::Scene& scene) {
       least, scene.robot.reach_max);
 }
 
+/// Height [m] of a gap that nobody walks through: what stands so little above ground stands on it.
+double too_low(const gaits::Robot& robot) { return robot.reach_max / 4; }
+
 constexpr const char* sides =
     "Free space is on the left of a chain: ground runs from left to right, a ceiling from right to left";
 
 std::string back_face_words(const terrain::BackFace& seen) {
   return fmt::format(
-      "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way "
-      "round? {}",
+      "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round? {}",
       seen.chain, seen.index, seen.at.x(), seen.at.y(), sides);
 }
 
@@ -68,7 +70,7 @@ std::vector<Eigen::AlignedBox2d> inhabited(const gaits::Scene& scene) {
 }
 
 std::string inside_out_remark(const gaits::Scene& scene) {
-  const auto chain = terrain::obstacle_inside_out(scene.terrain, inhabited(scene), scene.robot.reach_min);
+  const auto chain = terrain::obstacle_inside_out(scene.terrain, inhabited(scene), too_low(scene.robot));
   if (!chain) return "";
   return fmt::format(
       "the free side of chain {} is its inside, where neither start nor goal lies: is it an obstacle given the wrong "
@@ -107,7 +109,8 @@ std::string scene_remark(const gaits::Scene& scene) {
     return fmt::format("the greatest reach is {:.6g} m: are all lengths, nu among them, in metres?",
                        scene.robot.reach_max);
   const double within = 2 * scene.robot.reach_max;
-  if (const auto seen = terrain::back_face_seen(scene.terrain, within)) return back_face_words(*seen);
+  if (const auto seen = terrain::back_face_seen(scene.terrain, within, too_low(scene.robot)))
+    return back_face_words(*seen);
   if (std::string inside_out = inside_out_remark(scene); !inside_out.empty()) return inside_out;
   if (std::string upside_down = upside_down_remark(scene); !upside_down.empty()) return upside_down;
   return goal_remark(scene);

@@ -52,7 +52,7 @@ class StancesOnPair {
       choice.decided = choice.decided && proven;
     };
     if (const std::string slips = friction_fault(scene_, stance_); !slips.empty()) return refuse(slips, true);
-    const Polygon window = reach_window(stance_.feet, scene_.robot.reach_max);
+    const Polygon window = reach_window(stance_.feet, proposals_.robot().reach_max);
     const Polygon balanced =
         window.empty() ? window
                        : gaits::oracle_of(scene_, stance_.feet, box_of_stances(scene_)).equilibrium_polygon(window);

@@ -63,8 +63,9 @@ std::string balancing_coms(const gaits::Scene& scene, const gaits::Stance& stanc
 
 std::string broken_rule_words(const gaits::Scene& scene, const gaits::Stance& stance, Rule rule) {
   const gaits::Robot& robot = scene.robot;
-  if (const auto chain = terrain::solid_around(scene.terrain, Eigen::AlignedBox2d(stance.com)))
-    return fmt::format("the COM lies behind chain {}, in solid ground", *chain);
+  if (rule == Rule::leg_visibility || rule == Rule::clearance)
+    if (const auto chain = terrain::solid_around(scene.terrain, Eigen::AlignedBox2d(stance.com)))
+      return fmt::format("the COM lies behind chain {}, in what pictures show as solid ground", *chain);
   for (int leg = 0; leg < gaits::leg_count; ++leg) {
     if (!stance.feet[leg]) continue;
     const double distance = (stance.com - stance.feet[leg]->position).norm();

@@ -132,10 +132,14 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
   return message;
 }
 
-std::string argument_fault(const CLI::App& app, int count, char** words) {
-  for (int i = 1; i < count; ++i)
+std::string equals_sign(int count, char** words) {
+  for (int i = 1; i < count && std::string_view(words[i]) != "--"; ++i)
     if (const std::string_view word = words[i]; word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=')
-      return fmt::format("{}: expected {} {}", word, word.substr(0, 2), word.substr(3));
+      return fmt::format("{}: behind {} stands a space, no equals sign", word, word.substr(0, 2));
+  return "";
+}
+
+std::string empty_argument(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands())
     for (const CLI::Option* option : command->get_options())
       for (const std::string& given : option->results())

@@ -72,13 +72,52 @@ std::size_t rays_of(const Terrain& terrain, std::size_t count) {
 
 }  // namespace
 
-std::optional<BackFace> back_face_seen(const Terrain& terrain, double within) {
+namespace {
+
+struct ChainEnds {
+  const Segment *first = nullptr, *last = nullptr;
+  Eigen::AlignedBox2d extent;
+  double twice_area = 0;  // [m^2] counterclockwise positive, of the chain closed by a straight line
+
+  void add(const Segment& segment) {
+    if (first == nullptr) first = &segment;
+    last = &segment;
+    extent.extend(segment.a).extend(segment.b);
+    const Point a = segment.a - first->a, b = segment.b - first->a;
+    twice_area += a.x() * b.y() - a.y() * b.x();
+  }
+};
+
+/// Both ends stand on other ground, or at most `room` above it.
+bool stands_on_ground(const Terrain& terrain, const ChainEnds& ends, double room) {
+  const auto is_low = [&](const Point& end, const Segment& own) {
+    const Sight sight = look(terrain, end, Point(0, -1), room, &own);
+    return sight.met != nullptr && !sight.back && sight.met->chain != own.chain;
+  };
+  return is_low(ends.first->a, *ends.first) && is_low(ends.last->b, *ends.last);
+}
+
+std::vector<ChainEnds> ends_of_chains(const Terrain& terrain) {
+  std::vector<ChainEnds> chains(static_cast<std::size_t>(terrain.chain_count()));
+  for (const Segment& segment : terrain.segments()) chains[static_cast<std::size_t>(segment.chain)].add(segment);
+  return chains;
+}
+
+}  // namespace
+
+std::optional<BackFace> back_face_seen(const Terrain& terrain, double within, double room) {
   const auto& segments = terrain.segments();
   const std::size_t rays = rays_of(terrain, segments.size());
+  const auto chains = ends_of_chains(terrain);
+  std::vector<bool> is_obstacle(chains.size(), false);  // as far as is known: open below, and so its inside is seen
   for (std::size_t k = 0; k < rays; ++k) {
     const Segment& ground = segments[k * segments.size() / rays];
     if (!ground.surface.foothold) continue;
-    if (auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground)) return seen;
+    const auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground);
+    if (!seen || is_obstacle[static_cast<std::size_t>(seen->chain)]) continue;
+    const ChainEnds& ends = chains[static_cast<std::size_t>(seen->chain)];
+    if (!(ends.twice_area < 0 && stands_on_ground(terrain, ends, room))) return seen;
+    is_obstacle[static_cast<std::size_t>(seen->chain)] = true;
   }
   return std::nullopt;
 }
@@ -124,48 +163,23 @@ std::optional<int> ground_upside_down(const Terrain& terrain, double near, doubl
   return std::nullopt;
 }
 
-namespace {
-
-struct ChainEnds {
-  const Segment *first = nullptr, *last = nullptr;
-  Eigen::AlignedBox2d extent;
-  double twice_area = 0;  // [m^2] counterclockwise positive, of the chain closed by a straight line
-
-  void add(const Segment& segment) {
-    if (first == nullptr) first = &segment;
-    last = &segment;
-    extent.extend(segment.a).extend(segment.b);
-    const Point a = segment.a - first->a, b = segment.b - first->a;
-    twice_area += a.x() * b.y() - a.y() * b.x();
-  }
-};
-
-std::vector<ChainEnds> ends_of_chains(const Terrain& terrain) {
-  std::vector<ChainEnds> chains(static_cast<std::size_t>(terrain.chain_count()));
-  for (const Segment& segment : terrain.segments()) chains[static_cast<std::size_t>(segment.chain)].add(segment);
-  return chains;
-}
-
-}  // namespace
-
 std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> inhabited,
                                        double room) {
   const auto chains = ends_of_chains(terrain);
   std::size_t rays = rays_of(terrain, 2 * chains.size());
-  const auto stands_low = [&](const Point& end, const Segment& own) {
-    const Sight sight = look(terrain, end, Point(0, -1), room, &own);
-    return sight.met != nullptr && !sight.back && sight.met->chain != own.chain;
-  };
   for (std::size_t chain = 0; chain < chains.size(); ++chain) {
     const ChainEnds& ends = chains[chain];
     if (!(ends.twice_area > 0)) continue;  // free space is outside
-    const auto lives_in = [&](const Eigen::AlignedBox2d& box) { return box.intersects(ends.extent); };
+    const bool closed = ends.first->a == ends.last->b;
+    Eigen::AlignedBox2d room_of = ends.extent;
+    if (!closed) room_of.min().y() = -greatest_coordinate;  // somebody may live below, in a trench that it covers
+    const auto lives_in = [&](const Eigen::AlignedBox2d& box) { return box.intersects(room_of); };
     if (std::any_of(inhabited.begin(), inhabited.end(), lives_in)) continue;
-    if (ends.first->a == ends.last->b) return static_cast<int>(chain);
+    if (closed) return static_cast<int>(chain);
     if (ends.first->a.x() <= ends.last->b.x()) continue;  // ground with a hollow
     if (rays < 2) return std::nullopt;
     rays -= 2;
-    if (stands_low(ends.first->a, *ends.first) && stands_low(ends.last->b, *ends.last)) return static_cast<int>(chain);
+    if (stands_on_ground(terrain, ends, room)) return static_cast<int>(chain);
   }
   return std::nullopt;
 }

@@ -17,15 +17,16 @@ struct BackFace {
 };
 
 /// The first met by rays of length `within` [m] from the middles of segments on which a foot may stand, along their
-/// normals. Every such segment is asked where there are few, an even choice of them where there are many.
-std::optional<BackFace> back_face_seen(const Terrain& terrain, double within);
+/// normals. Every such segment is asked where there are few, an even choice of them where there are many. Obstacles
+/// that are open below, their ends at most `room` [m] above other ground, may show their inside.
+std::optional<BackFace> back_face_seen(const Terrain& terrain, double within, double room);
 
 /// The first met by rays of that length straight up and down from the points; of many points an even choice is asked.
 std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within);
 
-/// The first chain whose free side is its inside, though none of the `inhabited` boxes meets its extent: most likely an
-/// obstacle given the wrong way round. It is closed, or runs from right to left and both its ends are at most `room`
-/// [m] above other ground. Nothing where there are too many chains to ask.
+/// The first chain whose free side is its inside, though none of the `inhabited` boxes meets its extent (or lies below
+/// it, where it is open): most likely an obstacle given the wrong way round. It is closed, or runs from right to left
+/// and both its ends are at most `room` [m] above other ground. Nothing where there are too many chains to ask.
 std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> inhabited,
                                        double room);
 

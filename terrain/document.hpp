@@ -102,7 +102,7 @@ class Node {
   // Maps. Keys are scalars and unique (checked when the file is read). `what` names the map.
   const std::vector<std::pair<Node, Node>>& entries(std::string_view what) const;
   const Node* find(std::string_view key) const;  ///< nullptr if absent or not a map
-  /// Absent: InputError that ends in `advice` (YAML, and kept from files that are JSON); AlreadyTold if allow_only has
+  /// Absent: InputError that ends in `advice`; AlreadyTold if allow_only has
   /// suggested it for a misspelt key.
   const Node& require(std::string_view key, std::string_view what, std::string_view advice = "") const;
   /// Refuses every key that is not listed, and suggests where it belongs or the nearest one that is. False if there is

@@ -190,7 +190,7 @@ const std::vector<Node>& Node::items(std::string_view what, std::size_t n) const
 
 const std::vector<std::pair<Node, Node>>& Node::entries(std::string_view what) const {
   if (is_null() && source_ && !is_flow_text(*source_)) refuse(what, "a map (key: value), indented below it");
-  if (kind() == Kind::scalar && std::get<std::string_view>(content_).find(':') != std::string_view::npos)
+  if (kind() == Kind::scalar && !quoted_ && std::get<std::string_view>(content_).find(':') != std::string_view::npos)
     refuse(what, "a map (key: value), with a space behind each colon");
   if (kind() != Kind::map) refuse(what, "a map (key: value)");
   return std::get<Entries>(content_);
@@ -212,8 +212,7 @@ const Node& Node::require(std::string_view key, std::string_view what, std::stri
       if (meant_by(std::get<std::string_view>(name.content_), {std::string(key)}) == key) throw AlreadyTold();
     }
   }
-  const bool yaml = source_ && !is_flow_text(*source_);  // in which the advice is written
-  fail(std::string(what) + ": \"" + std::string(key) + "\" is missing" + std::string(yaml ? advice : ""));
+  fail(std::string(what) + ": \"" + std::string(key) + "\" is missing" + std::string(advice));
 }
 
 bool Node::allow_only(Keys keys, std::string_view what) const {

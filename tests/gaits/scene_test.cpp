@@ -168,7 +168,7 @@ TEST_CASE("of keys that stand a level too far out or in it is said where they be
 
 TEST_CASE("what is required is missed", "[scene]") {
   const Fault fault = GENERATE(
-      Fault{"surefoot: 1\n", "", "s.yaml:1:1: scene: \"surefoot\" is missing; add \"surefoot: 1\" as the first line"},
+      Fault{"surefoot: 1\n", "", "s.yaml:1:1: scene: \"surefoot\" is missing; add \"surefoot: 1\" at the top level"},
       Fault{"disturbance: {kappa: 0.1, nu: 0.03}\n", "",
             "s.yaml:1:1: scene: \"disturbance\" is missing; for none add \"disturbance: {kappa: 0, nu: 0}\""},
       Fault{"goal: {com_x: [1.6, 1.9], com_y: [0.5, 0.5]}\n", "",

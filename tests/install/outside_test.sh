@@ -9,7 +9,9 @@ work=$(mktemp -d)
 # The user's own list of what is installed, by which docs/library.md uninstalls, is not written: a component, be it that
 # of all that names none, has a list of its own.
 component=Unspecified
-trap 'rm -rf -- "$work" "$build/install_manifest_$component.txt"' EXIT
+list=$build/install_manifest_$component.txt # also made by who installs that component by hand: then it stays
+[[ -e $list ]] && list=
+trap 'rm -rf -- "$work" ${list:+"$list"}' EXIT
 manifest() { stat -c '%y %i' "$build/install_manifest.txt" 2>/dev/null || echo none; }
 manifest_before=$(manifest)
 prefix=$work/prefix

@@ -367,7 +367,10 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
     CHECK(run.status == 2);
     CHECK(run.err == "surefoot: error: " + name + " is an empty text\n");
   }
-  CHECK_THAT(place.run("plan x -o=x.json").err, Catch::EndsWith("error: -o=x.json: expected -o x.json\n"));
+  for (const std::string word : {"-o=x.json", "-o=", "-q=1"})
+    CHECK_THAT(place.run("plan x " + word).err, Catch::EndsWith("error: " + word + ": behind " + word.substr(0, 2) +
+                                                                " stands a space, no equals sign\n"));
+  CHECK_THAT(place.run("validate -- -a=b.yaml").out, Catch::StartsWith("-a=b.yaml: no such file"));
   CHECK_THAT(place.run("version").err, Catch::EndsWith("expected surefoot --version\n"));
   CHECK_THAT(place.run("plan").err, Catch::EndsWith("SCENE is missing (surefoot plan --help tells more)\n"));
   CHECK_THAT(place.run("plan x --svg").err, Catch::EndsWith("error: --svg: expected FILE behind it\n"));

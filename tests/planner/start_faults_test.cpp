@@ -33,3 +33,12 @@ TEST_CASE("Causes that name no pair are said once, those that name another one s
   faults.add(on(2, 3), "none on feet 1 and 2");
   CHECK(faults.words() == "leg 1 cuts the terrain; none on feet 1 and 2");
 }
+
+TEST_CASE("Advice stands once, behind all causes", "[start_faults]") {
+  planner::PairFaults faults;
+  faults.add(on(1, 2), "none on feet 1 and 2");
+  faults.advise("try less");
+  faults.add(on(1, 3), "none on feet 1 and 3: far");
+  faults.advise("try less");
+  CHECK(faults.words() == "none on feet 1 and 2; none on feet 1 and 3: far; try less");
+}

@@ -196,12 +196,16 @@ expect "and both run" test "$(<"$work/out1")$(<"$work/out2")" = "[$work][plan][1
 # Signals while it builds, to the launcher alone or, as Ctrl-C sends them, to the group that a terminal knows. (A
 # background process of a script ignores INT unless told otherwise.)
 running() { grep -lsz "^FAKE_SECONDS=$1\$" /proc/[0-9]*/environ; }
-build_in_background() { # build_in_background SECONDS: from nothing; its process in $builder
+# Stopped is only who can be continued: a job of a shell, which a session of its own is not.
+build_in_background() { # build_in_background SECONDS [job]: from nothing; its process in $builder
   rm -rf "$tree/build"
   : >"$calls"
-  (cd "$work" && FAKE_SECONDS=$1 PATH="$fakes:$PATH" exec env --default-signal=INT setsid "$tree/surefoot" plan x) \
+  local own=(setsid)
+  [[ ${2-} != job ]] || { own=() && set -m; }
+  (cd "$work" && FAKE_SECONDS=$1 PATH="$fakes:$PATH" exec env --default-signal=INT "${own[@]}" "$tree/surefoot" plan x) \
     >"$work/out" 2>"$work/err" </dev/null &
   builder=$!
+  set +m
   for ((i = 0; i < 200; ++i)); do called "cmake --build" && break || sleep 0.05; done
   sleep 0.1
   expect "something is running" test -n "$(running "$1")"
@@ -221,19 +225,45 @@ done
 run plan x
 expect "and the next call builds" called "cmake --build"
 
-build_in_background 1.$$
+# Ctrl-Z (with ninja the compilers that run, which have groups of their own, end what they do).
 stopped() {
   local processes
-  mapfile -t processes < <(running 1.$$)
+  mapfile -t processes < <(running "$1")
   ((${#processes[@]} > 3)) && ! cat "${processes[@]/%environ/stat}" | grep -qv ') T '
 }
-kill -s TSTP "$builder"
-for ((i = 0; i < 40; ++i)); do stopped && break || sleep 0.05; done
-expect "Ctrl-Z stops all of the build" stopped
+stop_in_background() { # stop_in_background SECONDS
+  build_in_background "$1" job
+  kill -s TSTP "$builder"
+  for ((i = 0; i < 40; ++i)); do stopped "$1" && break || sleep 0.05; done
+  expect "Ctrl-Z stops what builds" stopped "$1"
+}
+stop_in_background 1.$$
 kill -s CONT "$builder"
 wait "$builder"
 status=$?
 expect "and fg goes on with it" test "$status" -eq 3
+stop_in_background 96.$$
+kill -s TERM "$builder"
+kill -s CONT "$builder"
+wait "$builder" 2>/dev/null
+status=$?
+expect "ended while it is stopped: status 143" test "$status" -eq 143
+expect "ended while it is stopped: nothing is left running" test -z "$(running 96.$$)"
+build_in_background 95.$$
+kill -s TSTP "$builder"
+sleep 0.2
+expect "where no shell could continue it, it is not stopped" eval '! stopped 95.$$'
+kill -s TERM "$builder"
+wait "$builder"
+
+# Who kills the launcher alone does not let a second build into the first one's folder.
+build_in_background 2.$$
+kill -s KILL "$builder"
+wait "$builder" 2>/dev/null
+: >"$calls"
+run plan x
+expect "the next call waits for what the killed one began" says "waiting for another build"
+expect "and nothing of that is left" test -z "$(running 2.$$)"
 
 # What cannot be written, because another user built first or owns the tree. Who is root becomes another user.
 if ((EUID != 0)) || command -v setpriv >/dev/null; then
@@ -300,7 +330,7 @@ run test -R "some name"
 expect "test builds the tests" called "SUREFOOT_TESTS=ON"
 expect "test passes arguments on" called "-R some name"
 expect "stdout of test is ctest's" prints "100% tests passed"
-for words in --nosuch "-R x --sanitize" "-j --progress --nosuch=3" "--repeat until-fail:2 -Z" --tests-regex=x; do
+for words in --nosuch "-R x --sanitize" "-j --nosuch" "-j --progress --nosuch=3" "--repeat until-fail:2 -Z" --tests-regex=x; do
   # shellcheck disable=SC2086
   run test $words
   expect "test $words: status 2" test "$status" -eq 2
@@ -308,6 +338,9 @@ for words in --nosuch "-R x --sanitize" "-j --progress --nosuch=3" "--repeat unt
   expect "test $words: one line" says_only \
     "error: unknown option '${words##* }'; there are --sanitize, which comes first, and those of ctest --help"
 done
+run test stability
+expect "a word that ctest would pass over is refused" says_only \
+  "error: unknown word 'stability'; -R 'stability' runs the tests whose names hold it"
 words="-R -x -LE --no -j4 -DX=1 --no-tests=ignore --show-only=json-v1 -N --repeat until-pass:2 -VV --timeout 5 -I 1,2"
 # shellcheck disable=SC2086
 run test $words

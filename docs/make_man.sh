@@ -75,5 +75,6 @@ proven that there is no plan
 .B NO_COLOR
 if set and not empty: no colour. There is none without a terminal, and neither colour nor progress with TERM=dumb.
 .SH FILES
-Canned scenes are looked for in ../share/surefoot/maps beside the folder of the program.
+Canned scenes are looked for in ../share/surefoot/maps beside the folder of the program. The README, the formats of
+scenes, plans and postures (formats.md) and all other documents are installed in ../share/doc/surefoot.
 END

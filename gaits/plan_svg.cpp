@@ -13,6 +13,7 @@
 #include "gaits/svg_canvas.hpp"
 #include "gaits/terrain_picture.hpp"
 #include "stability/robust_oracle.hpp"
+#include "terrain/back_faces.hpp"
 
 namespace surefoot::gaits {
 namespace {
@@ -90,8 +91,18 @@ class PlanPicture {
   /// Solid ground may hide the goal, but neither its name nor, where its height is given, its edges.
   void label_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
     if (scene_.goal.com_y) draw_goal(row, goal, {.stroke = goal_colour, .width = 1.5});
-    canvas_.text(row.view({goal.center().x(), goal.max().y()}) + Vector2d(0, 15), "goal",
+    canvas_.text(row.view(label_place(goal)) + Vector2d(0, 15), "goal",
                  {.colour = "#6b6400", .anchor = "middle", .bold = true});
+  }
+
+  /// The highest place over which the goal's name does not stand in solid ground, if there is one.
+  Vector2d label_place(const Eigen::AlignedBox2d& goal) const {
+    constexpr std::size_t many = 100'000;  // segments, of which each place asks all
+    const Vector2d top(goal.center().x(), goal.max().y()), line(0, 18 / page_.scale);
+    if (scene_.terrain.segments().size() > many) return top;
+    for (Vector2d at = top; at.y() - line.y() > goal.min().y(); at -= line)
+      if (!terrain::solid_around(scene_.terrain, Eigen::AlignedBox2d(at - 0.7 * line))) return at;
+    return top;
   }
 
   /// Where the COM can be: within reach of every planted foot (as a polygon of 32 corners for each).

@@ -181,8 +181,7 @@ std::vector<TerrainPicture::Key> TerrainPicture::legend() const {
   if (std::any_of(terrain_.segments().begin(), terrain_.segments().end(), barred))
     keys.push_back({usual_stroke, no_foothold, "no foothold"});
   const auto hatched = [](const Polyline& solid) { return solid.empty(); };
-  if (std::any_of(solids_.begin(), solids_.end(), hatched))
-    keys.push_back({usual_stroke, {}, "solid side", hatching});
+  if (std::any_of(solids_.begin(), solids_.end(), hatched)) keys.push_back({usual_stroke, {}, "solid side", hatching});
   return keys;
 }
 

@@ -48,7 +48,8 @@ std::optional<Foot> Checks::rebuild(const std::string& place, int leg, const Foo
     if (stated.segment != segment.index) {
       // The same words at every foot after a vertex that was added.
       note(Rule::foothold, place,
-           "the segment stated of a foot on chain {} is {} too {} for its position and arc length, which agree",
+           "the segment stated of a foot on chain {} is {} too {} for its position and arc length, which agree: have "
+           "vertices before it come or gone?",
            stated.chain, std::abs(std::int64_t{stated.segment} - segment.index),
            stated.segment > segment.index ? "high" : "low");
     }

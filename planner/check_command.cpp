@@ -19,8 +19,9 @@ namespace surefoot::planner {
 namespace {
 
 /// "; for feet that were not found stability is not judged in 3 of 5 stances and 2 of 4 transfers", or nothing.
+std::string counted(int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
 std::string not_judged(const gaits::Verification& verification) {
-  const auto counted = [](int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
   const int stances = verification.stances_with_lost_feet, transfers = verification.transfers_with_lost_feet;
   if (stances == 0 && transfers == 0) return "";
   return fmt::format("; for feet that were not found stability is not judged in {} of {} and {} of {}", stances,
@@ -30,8 +31,8 @@ std::string not_judged(const gaits::Verification& verification) {
 /// "does not hold: 35 faults in 3 of 5 stances and 3 of 4 transfers".
 std::string verdict(const gaits::Verification& verification, const gaits::Plan& plan) {
   if (verification.holds())
-    return fmt::format("holds: {} stances, {} transfers, least safety factor {:.6g}", verification.stances,
-                       verification.transfers, plan.safety_factor);
+    return fmt::format("holds: {}, {}, least safety factor {:.6g}", counted(verification.stances, "stance"),
+                       counted(verification.transfers, "transfer"), plan.safety_factor);
   const std::size_t count = verification.faults.size();
   if (std::all_of(verification.faults.begin(), verification.faults.end(), [](const auto& f) { return f.stated; }))
     return fmt::format(
@@ -68,7 +69,8 @@ std::string fault_lines(const gaits::Verification& verification) {
 std::string other_friction(const gaits::Scene& scene, const gaits::Plan& plan) {
   const auto differs = [&](const terrain::Foothold& foot) {
     const auto here = scene.terrain.foothold_at(foot.chain, foot.s);
-    return foot.friction > 0 && here && here->friction != foot.friction;
+    const bool found = here && here->segment == foot.segment;  // another one: the foot is lost, which is told
+    return foot.friction > 0 && found && here->friction != foot.friction;
   };
   for (std::size_t k = 0; k < plan.stances.size(); ++k)
     for (std::size_t leg = 0; leg < gaits::leg_count; ++leg)
@@ -105,7 +107,9 @@ int run_check(const CheckArguments& arguments) {
   if (!verification.holds() && plan.scene != scene.name)
     note(fmt::format("the plan is for a scene named {}, this one is {}", plan.scene, scene.name));
   if (const std::string other = verification.holds() ? "" : other_friction(scene, plan); !other.empty()) note(other);
-  if (const std::string remark = behind_chain_remark(scene, plan); !remark.empty()) note("remark: " + remark);
+  const bool meant = verification.holds() || plan.scene == scene.name;
+  if (const std::string remark = meant ? behind_chain_remark(scene, plan) : ""; !remark.empty())
+    note("remark: " + remark);
   outputs.commit();
   return verification.holds() ? exit_success : exit_failure;
 }

@@ -229,7 +229,8 @@ std::string Explainer::rule_words(const Rules& rules) const {
     case Obstacle::goal: return fmt::format("no COM within reach {} of two feet {}", reach, all);
     case Obstacle::barrier: break;
   }
-  return fmt::format("no steps lead across with all feet within reach {} of a COM that {}", reach, all);
+  const char* where = result_.x || result_.y ? "across" : "from the start to the goal";
+  return fmt::format("no steps lead {} with all feet within reach {} of a COM that {}", where, reach, all);
 }
 
 }  // namespace

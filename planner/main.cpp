@@ -134,7 +134,9 @@ CLI::App* add_region(CLI::App& app, RegionArguments& a) {
   CLI::App* region =
       app.add_subcommand("region", "Stability regions of a stance: where the COM may be, and what forbids the rest");
   region->add_option("SCENE", a.scene, scene_words);
-  region->add_option("--posture", a.posture, "instead of a scene: a query line without com (JSON)")->type_name("FILE");
+  region
+      ->add_option("--posture", a.posture, "instead of a scene: a query line (JSON); its com, if it has one, is marked")
+      ->type_name("FILE");
   region->add_option("--stance", a.stance, "two or three legs that stand (default: start.support, or all start feet)")
       ->type_name("LEG,LEG");
   region->add_option("--wrench", a.wrench, "one wrench p,q [1, m] instead of the box W")->type_name("P,Q");

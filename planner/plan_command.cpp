@@ -144,7 +144,7 @@ std::string what_would_help(const gaits::Scene& scene, SearchOptions options, bo
   options.progress = [](const std::string&) {};
   const Remedies tried = remedies(scene, options);
   show_progress("");
-  std::string text = "\nNo single change of friction, reach, disturbances or clearance was found to help.\n";
+  std::string text = "\nNo single change of friction, reach, disturbances, clearance or criterion was found to help.\n";
   if (!tried.found.empty())
     text =
         "\nEach of these alone would do (with it a plan was found and verified; with less a short search found "

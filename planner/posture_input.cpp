@@ -2,7 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
 #include "gaits/scene.hpp"
+#include "planner/canned_scenes.hpp"
 #include "planner/commands.hpp"
 #include "planner/console.hpp"
 
@@ -13,6 +19,11 @@ using terrain::InputError;
 using terrain::Node;
 
 Document read_posture_document(const std::string& path, const char* for_scenes) {
+  std::error_code ignored;
+  const std::vector<CannedScene> canned =
+      path == "-" || std::filesystem::exists(path, ignored) ? std::vector<CannedScene>() : canned_scenes();
+  if (std::any_of(canned.begin(), canned.end(), [&](const CannedScene& scene) { return scene.name == path; }))
+    throw InputError(fmt::format("{}: this is a canned scene; expected a posture ({})", path, for_scenes));
   Document document = path == "-" ? Document::parse(read_stdin(), "<stdin>") : Document::read_file(path);
   if (const Node& root = document.root(); gaits::looks_like_scene(root))
     root.fail(fmt::format("posture: this is a scene; expected a posture ({})", for_scenes));

@@ -58,7 +58,8 @@ void read_posture(const RegionArguments& arguments, Subject& subject) {
 
 Subject read_subject(const RegionArguments& arguments) {
   if (arguments.scene.has_value() == arguments.posture.has_value())
-    throw InputError(arguments.scene ? "a scene and --posture are given; expected one of them"
+    throw InputError(arguments.scene ? fmt::format("a scene, {}, and --posture are given; expected one of them",
+                                                   one_line(*arguments.scene))
                                      : "nothing to draw: expected a scene file or --posture FILE");
   if (arguments.posture && arguments.stance) throw InputError("--stance: only for a scene; a posture is one stance");
   Subject subject;

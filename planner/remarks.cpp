@@ -42,16 +42,20 @@ constexpr const char* sides =
 
 std::string back_face_words(const terrain::BackFace& seen) {
   return fmt::format(
-      "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round? {}",
+      "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round (or meant as "
+      "a plate "
+      "without thickness)? {}",
       seen.chain, seen.index, seen.at.x(), seen.at.y(), sides);
 }
 
-/// A goal in solid ground: only one that is bounded on all sides can be seen to be.
+/// A goal in solid ground: only one that is bounded below and above can be seen to be.
 std::string goal_remark(const gaits::Scene& scene) {
   const auto &x = scene.goal.com_x, &y = scene.goal.com_y;
-  if (!x || !y) return "";
+  if (!y) return "";
+  const auto bounds = scene.terrain.bounds();
+  const auto [left, right] = x.value_or(std::pair(bounds.min().x(), bounds.max().x()));
   const auto solid =
-      terrain::solid_around(scene.terrain, {terrain::Point(x->first, y->first), terrain::Point(x->second, y->second)});
+      terrain::solid_around(scene.terrain, {terrain::Point(left, y->first), terrain::Point(right, y->second)});
   if (!solid) return "";
   return fmt::format("the goal lies behind chain {}, in what pictures show as solid ground: is its place meant so?",
                      *solid);
@@ -121,6 +125,11 @@ std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& pl
   for (const gaits::Stance& stance : plan.stances) coms.push_back(stance.com);
   const auto seen = terrain::back_face_over(scene.terrain, coms, 2 * scene.robot.reach_max);
   if (!seen) return "";
+  const terrain::Point& com = coms[static_cast<std::size_t>(seen->index)];
+  const bool under = seen->at.y() > com.y();  // ground, rather than over a ceiling
+  if (const auto chain = under ? terrain::solid_around(scene.terrain, Eigen::AlignedBox2d(com)) : std::nullopt)
+    return fmt::format("the COM of stance {} lies behind chain {}, in what pictures show as solid ground",
+                       seen->index + 1, *chain);
   return fmt::format(
       "the COM of stance {} looks at the back of chain {} at ({:.6g}, {:.6g}), so it is in what pictures show as "
       "solid: chains are lines without thickness, give a ceiling its sides",

@@ -50,6 +50,8 @@ std::string words(const gaits::Scene& scene, Remedy remedy, double factor) {
       return fmt::format("disturbances times {:.6g} (kappa {:.6g}, nu {:.6g})", factor,
                          factor * scene.disturbance.kappa, factor * scene.disturbance.nu);
     case Remedy::clearance: return instead("clearance", scene.robot.clearance);
+    case Remedy::equilibrium:
+      return "stability: {criterion: equilibrium}, for a robot that braces actively: balance alone is asked for";
   }
   return {};
 }
@@ -64,6 +66,10 @@ class Trials {
     if (remedy == Remedy::clearance && scene_.robot.clearance == 0) return std::nullopt;
     if (remedy == Remedy::disturbances && scene_.disturbance.kappa == 0 && scene_.disturbance.nu == 0)
       return std::nullopt;
+    if (remedy == Remedy::equilibrium) {
+      if (scene_.criterion != gaits::Criterion::robust || !does(remedy, 1)) return std::nullopt;
+      return RemedyFound{remedy, 1, words(scene_, remedy, 1)};
+    }
     double too_little = 1, enough = greatest_change(remedy);
     if (!does(remedy, factor_of(remedy, enough))) return std::nullopt;
     while (enough > remedy_step * too_little && !stopped()) {
@@ -112,6 +118,7 @@ gaits::Scene changed(const gaits::Scene& scene, Remedy remedy, double factor) {
                       .search = scene.search};
   for (auto& foot : result.start.feet)
     if (foot) foot->friction = result.terrain.segment(foot->chain, foot->segment).surface.friction;
+  if (remedy == Remedy::equilibrium) result.criterion = gaits::Criterion::equilibrium;
   if (remedy == Remedy::reach) result.robot.reach_max *= factor;
   if (remedy == Remedy::clearance) result.robot.clearance *= factor;
   if (remedy == Remedy::disturbances) {
@@ -124,7 +131,8 @@ gaits::Scene changed(const gaits::Scene& scene, Remedy remedy, double factor) {
 Remedies remedies(const gaits::Scene& scene, const SearchOptions& options) {
   const Trials trials(scene, options);
   Remedies result;
-  for (const Remedy remedy : {Remedy::friction, Remedy::reach, Remedy::disturbances, Remedy::clearance})
+  for (const Remedy remedy :
+       {Remedy::friction, Remedy::reach, Remedy::disturbances, Remedy::clearance, Remedy::equilibrium})
     if (const auto one = trials.find(remedy)) result.found.push_back(*one);
   result.cut_off = trials.stopped();
   return result;

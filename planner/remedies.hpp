@@ -16,9 +16,10 @@ namespace surefoot::planner {
 /// Ratio between the change that is named and a smaller one that did not do.
 constexpr double remedy_step = 1.03;
 
-/// The numbers that are tried: all friction, the greatest reach, the disturbances, the clearance.
-enum class Remedy { friction, reach, disturbances, clearance };
-/// The scene with one of them times `factor`.
+/// What is tried: all friction, the greatest reach, the disturbances, the clearance; where the criterion is robust,
+/// that balance alone is asked for.
+enum class Remedy { friction, reach, disturbances, clearance, equilibrium };
+/// The scene with one of the numbers times `factor`, or of criterion equilibrium.
 gaits::Scene changed(const gaits::Scene& scene, Remedy remedy, double factor);
 
 struct RemedyFound {

@@ -86,13 +86,14 @@ class Node {
   FaultList* faults() const;
 
   // Scalars. Each throws InputError saying what was found and what is expected. A quoted scalar is a text, no number.
-  double number(std::string_view what) const;            ///< finite; decimal or exponent form, no leading zeros
-  double positive(std::string_view what) const;          ///< finite and > 0
-  double not_negative(std::string_view what) const;      ///< finite and >= 0
-  std::int64_t integer(std::string_view what) const;     ///< decimal digits only, no octal surprise
-  bool boolean(std::string_view what) const;             ///< true | false
-  std::string text(std::string_view what) const;         ///< any scalar, as written between its quotes if it has some
-  bool is_null() const { return kind() == Kind::null; }  ///< nothing, ~ or null
+  double number(std::string_view what) const;             ///< finite; decimal or exponent form, no leading zeros
+  double positive(std::string_view what) const;           ///< finite and > 0
+  double not_negative(std::string_view what) const;       ///< finite and >= 0
+  std::int64_t integer(std::string_view what) const;      ///< decimal digits only, no octal surprise
+  std::int64_t integer_key(std::string_view what) const;  ///< the same of a key, which JSON puts in quotes
+  bool boolean(std::string_view what) const;              ///< true | false
+  std::string text(std::string_view what) const;          ///< any scalar, as written between its quotes if it has some
+  bool is_null() const { return kind() == Kind::null; }   ///< nothing, ~ or null
 
   // Sequences.
   const std::vector<Node>& items(std::string_view what) const;

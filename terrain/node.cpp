@@ -124,7 +124,13 @@ double Node::not_negative(std::string_view what) const {
 }
 
 std::int64_t Node::integer(std::string_view what) const {
-  const std::string_view text = plain_scalar(what, "an integer", is_number);
+  plain_scalar(what, "an integer", is_number);
+  return integer_key(what);
+}
+
+std::int64_t Node::integer_key(std::string_view what) const {
+  if (kind() != Kind::scalar) refuse(what, "an integer");
+  const std::string_view text = std::get<std::string_view>(content_);
   const NumberForm form = form_of(without_sign(text));
   if (form == NumberForm::leading_zero) {
     fail(std::string(what) + ": " + shown(text) + " has a leading zero; expected an integer without");
@@ -164,7 +170,7 @@ std::string Node::list_advice(std::size_t n) const {
   if (kind() != Kind::sequence || n == 0) return "";
   const Items& items = std::get<Items>(content_);
   const auto* only = items.size() == 1 ? std::get_if<std::string_view>(&items.front().content_) : nullptr;
-  if (only != nullptr && only->find(';') != std::string_view::npos) return "; a comma parts them, no semicolon";
+  if (only != nullptr && only->find_first_of("; ") != std::string_view::npos) return "; a comma must part them";
   if (items.size() != 2 * n) return "";
   std::string meant;
   for (std::size_t i = 0; i < items.size(); ++i) {

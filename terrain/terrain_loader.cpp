@@ -31,7 +31,7 @@ Point load_vertex(const Node& node) {
 }
 
 void load_override(const Node& key, const Node& value, std::vector<Surface>& surfaces, std::vector<bool>& given) {
-  const std::int64_t index = key.integer("segment index");
+  const std::int64_t index = key.integer_key("segment index");
   if (index < 0 || index >= static_cast<std::int64_t>(surfaces.size())) {
     key.fail("segment index: " + std::to_string(index) + " is out of range; expected 0 to " +
              std::to_string(surfaces.size() - 1));

@@ -54,15 +54,27 @@ std::string unclosed(const Source& source, char bracket, const char* what, std::
 }
 
 constexpr const char* space_after_colon = "; a space must follow a colon";
-constexpr const char* no_break_space = "; a no-break space (U+00A0) stands in the indentation: write ordinary spaces";
 constexpr const char* same_column = "; keys of one map, or dashes of one list, begin in the same column";
+
+/// The last line up to that of a position in whose content a no-break space stands: it looks like a space and is none.
+std::string no_break_space(const Source& source, std::size_t position) {
+  const std::size_t end = std::min(source.text.find('\n', position), source.text.size());
+  std::size_t number = 0, found = 0;
+  for (std::size_t begin = 0; begin < end; ++number) {
+    const std::size_t next = std::min(source.text.find('\n', begin), source.text.size());
+    const std::string_view line = std::string_view(source.text).substr(begin, next - begin);
+    if (content(line).find("\u00a0") != std::string_view::npos) found = number + 1;
+    begin = next + 1;
+  }
+  if (found == 0) return "";
+  return "; a no-break space (U+00A0) stands on line " + std::to_string(found) + ": write ordinary spaces";
+}
 
 /// The parser wanted the next key or dash of a block, and found something else.
 std::string misplaced(const Source& source, std::size_t position) {
   if (source.text.substr(position, 1) == ",") return "; a list of several on one line stands in square brackets";
   const std::string_view from = std::string_view(source.text).substr(position - source.line_before(position).size());
   const std::string_view line = content(from.substr(0, from.find('\n')));
-  if (line.starts_with("\u00a0")) return no_break_space;
   if (!has_key(line) && has_close_colon(line)) return space_after_colon;  // the line that it stopped at
   const std::string advice = advice_on_line_above(source, position);
   return advice.empty() ? same_column : advice;
@@ -98,6 +110,7 @@ std::string advice_on_line_above(const Source& source, std::size_t position) {
 std::string yaml_advice(const Source& source, std::string_view message, std::size_t position,
                         std::optional<std::size_t> open) {
   position = std::min(position, source.text.size());
+  if (std::string advice = no_break_space(source, position); !advice.empty()) return advice;
   if (message == "end of sequence flow not found") return unclosed(source, ']', "list", open);
   if (message == "end of map flow not found") return unclosed(source, '}', "map", open);
   if (message == "end of map not found" || message == "end of sequence not found") return misplaced(source, position);

@@ -82,6 +82,20 @@ TEST_CASE("A plan that was tampered with does not hold, and check says where", "
   CHECK(place.run("check scene.yaml plan.json").status == 1);
 }
 
+TEST_CASE("A COM that was moved into the ground is told so, of another scene's plan it is not", "[command]") {
+  const Workplace place;
+  place.write("scene.yaml", scene);
+  json plan = json::parse(place.run("plan scene.yaml --format json").out);
+  plan["stances"][1]["com"][1] = -0.2;
+  place.write("plan.json", plan.dump());
+  CHECK_THAT(place.run("check scene.yaml plan.json").err,
+             Catch::Contains("the COM of stance 2 lies behind chain 0, in what pictures show as solid ground\n"));
+  plan["scene"] = "another";
+  place.write("plan.json", plan.dump());
+  CHECK_THAT(place.run("check scene.yaml plan.json").err,
+             Catch::Contains("for a scene named another") && !Catch::Contains("behind"));
+}
+
 TEST_CASE("A page that plays the plan comes with it, the same whenever it is made", "[command]") {
   const Workplace place;
   place.write("scene.yaml", with("surefoot: 1", "surefoot: 1\nname: '</script><b>'"));
@@ -371,6 +385,9 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
     CHECK_THAT(place.run("plan x " + word).err, Catch::EndsWith("error: " + word + ": behind " + word.substr(0, 2) +
                                                                 " stands a space, no equals sign\n"));
   CHECK_THAT(place.run("validate -- -a=b.yaml").out, Catch::StartsWith("-a=b.yaml: no such file"));
+  CHECK_THAT(place.run("simulate vee").err, Catch::Contains("vee: this is a canned scene; expected a posture"));
+  CHECK_THAT(place.run("region --posture p.json --wrench 0.1 -0.05").err,
+             Catch::Contains("a scene, -0.05, and --posture are given; expected one of them"));
   CHECK_THAT(place.run("version").err, Catch::EndsWith("expected surefoot --version\n"));
   CHECK_THAT(place.run("plan").err, Catch::EndsWith("SCENE is missing (surefoot plan --help tells more)\n"));
   CHECK_THAT(place.run("plan x --svg").err, Catch::EndsWith("error: --svg: expected FILE behind it\n"));

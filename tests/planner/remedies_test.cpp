@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -86,4 +87,17 @@ TEST_CASE("A change leaves everything else of the scene as it is", "[remedies]")
   CHECK(longer.robot.reach_max == 2 * scene.robot.reach_max);
   CHECK(longer.robot.reach_min == scene.robot.reach_min);
   CHECK(longer.disturbance.kappa == scene.disturbance.kappa);
+}
+
+TEST_CASE("Where feet brace against opposed walls it is said that criterion equilibrium would do", "[remedies]") {
+  gaits::Scene scene = map("chimney");
+  REQUIRE(scene.criterion == gaits::Criterion::equilibrium);
+  const auto asked_for = [](const gaits::Scene& of) {
+    const planner::Remedies remedies = remedies_of(of);
+    return std::any_of(remedies.found.begin(), remedies.found.end(),
+                       [](const auto& one) { return one.remedy == Remedy::equilibrium; });
+  };
+  scene.criterion = gaits::Criterion::robust;
+  CHECK(asked_for(scene));
+  CHECK_FALSE(asked_for(map("too_slippery")));  // there balance is what fails
 }

@@ -77,6 +77,8 @@ TEST_CASE("Obstacles given the wrong way round and goals in solid ground are rem
              Catch::Contains("start stands\n") && !Catch::Contains("remark"));
   const auto with_height = [](const std::string& com_y) { return with("[1.5, 2]", "[1.5, 2], com_y: " + com_y); };
   CHECK_THAT(told(with_height("[-0.5, -0.01]")), Catch::Contains("remark: the goal lies behind chain 0"));
+  CHECK_THAT(told(with("com_x: [1.5, 2]", "com_y: [-0.5, -0.1]")),
+             Catch::Contains("remark: the goal lies behind chain 0"));
   // The ordinary way to say that there is no lower limit.
   CHECK_THAT(told(with_height("[-100, 0.6]")), Catch::Contains("valid") && !Catch::Contains("remark"));
 }

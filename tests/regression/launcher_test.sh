@@ -229,7 +229,8 @@ expect "and the next call builds" called "cmake --build"
 stopped() {
   local processes
   mapfile -t processes < <(running "$1")
-  ((${#processes[@]} > 3)) && ! cat "${processes[@]/%environ/stat}" | grep -qv ') T '
+  # Counted rather than sought: whoever stops reading at the first would make cat fail.
+  ((${#processes[@]} > 3)) && [[ $(cat "${processes[@]/%environ/stat}" | grep -cv ') T ') -eq 0 ]]
 }
 stop_in_background() { # stop_in_background SECONDS
   build_in_background "$1" job

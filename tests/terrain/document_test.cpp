@@ -136,7 +136,9 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
       {"c:\n  -v: 1\n    s: 1\n", "on line 2 a space must follow the dash"},
       // Indentation.
       {"t:\n  f: 0.6\n c: 1\n", "keys of one map, or dashes of one list, begin in the same column"},
-      {"t:\n  f: 0.6\n \u00a0c: 1\n", "a no-break space (U+00A0) stands in the indentation: write ordinary spaces"},
+      {"t:\n  f: 0.6\n \u00a0c: 1\n", "a no-break space (U+00A0) stands on line 3: write ordinary spaces"},
+      {"t:\n\u00a0 f: 0.6\n  c: 1\n", "a no-break space (U+00A0) stands on line 2: write ordinary spaces"},
+      {"t:\n  f:\u00a00.6\n  c: 1\n", "a no-break space (U+00A0) stands on line 2: write ordinary spaces"},
       {"t:\n\tf: 0.6\n", "a tab stands in the indentation: indent by spaces"},
       {"a: - b\n", "a dash of a list stands at the beginning of its line"},
   };
@@ -187,7 +189,9 @@ TEST_CASE("a comma for a point is found where it parts a list or a map", "[docum
   CHECK(items("0.1, 0.9") == "f.yaml:1:1: x: 0.1, 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
   CHECK_THAT(error_of([&] { parse("1, 2, 3").root().items("x", 3); }),
              Catch::EndsWith("expected a list of 3 items in square brackets, [a, b, c]"));
-  CHECK_THAT(items("[-2; 0]"), Catch::EndsWith("expected a list of 2 items; a comma parts them, no semicolon"));
+  for (const std::string apart : {"[-2; 0]", "[-2 0]"})
+    CHECK_THAT(items(apart),
+               Catch::EndsWith("a list of 1 item is given; expected a list of 2 items; a comma must part them"));
   CHECK(items("0.1 - 0.9") ==
         "f.yaml:1:1: x: 0.1 - 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
   CHECK(items("(1, 2)") == "f.yaml:1:1: x: (1, 2) is given; expected a list of 2 items in square brackets, [a, b]");

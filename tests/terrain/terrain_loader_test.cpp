@@ -149,5 +149,19 @@ TEST_CASE("the canned scenes have sound terrains", "[loader]") {
   CHECK(scenes >= 10);
 }
 
+TEST_CASE("Segments are counted by keys in quotes too, as JSON writes them", "[terrain_loader]") {
+  const auto friction_of_first = [](const std::string& key) {
+    const Document document =
+        Document::parse(R"({"friction": 0.6, "chains": [{"vertices": [[0, 0], [1, 0]], "segments": {)" + key +
+                            R"(: {"friction": 0.4}}}]})",
+                        "s.json");
+    return load_terrain(document.root()).segments().front().surface.friction;
+  };
+  CHECK(friction_of_first("\"0\"") == 0.4);
+  CHECK(friction_of_first("0") == 0.4);
+  CHECK_THROWS_WITH(friction_of_first("\"first\""), Catch::Contains("segment index: first is not an integer"));
+  CHECK_THROWS_WITH(friction_of_first("\"1\""), Catch::Contains("segment index: 1 is out of range"));
+}
+
 }  // namespace
 }  // namespace surefoot::terrain

@@ -95,13 +95,17 @@ class PlanPicture {
                  {.colour = "#6b6400", .anchor = "middle", .bold = true});
   }
 
-  /// The highest place over which the goal's name does not stand in solid ground, if there is one.
+  /// The highest place at which the goal's name does not stand in solid ground, among the first few lines.
   Vector2d label_place(const Eigen::AlignedBox2d& goal) const {
     constexpr std::size_t many = 100'000;  // segments, of which each place asks all
+    constexpr int lines = 50;
     const Vector2d top(goal.center().x(), goal.max().y()), line(0, 18 / page_.scale);
     if (scene_.terrain.segments().size() > many) return top;
-    for (Vector2d at = top; at.y() - line.y() > goal.min().y(); at -= line)
+    for (int k = 0; k < lines; ++k) {
+      const Vector2d at = top - k * line;
+      if (at.y() - line.y() < goal.min().y()) break;
       if (!terrain::solid_around(scene_.terrain, Eigen::AlignedBox2d(at - 0.7 * line))) return at;
+    }
     return top;
   }
 

@@ -18,9 +18,9 @@ namespace surefoot::planner {
 
 namespace {
 
-/// "; for feet that were not found stability is not judged in 3 of 5 stances and 2 of 4 transfers", or nothing.
 std::string counted(int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
+/// "; for feet that were not found stability is not judged in 3 of 5 stances and 2 of 4 transfers", or nothing.
 std::string not_judged(const gaits::Verification& verification) {
   const int stances = verification.stances_with_lost_feet, transfers = verification.transfers_with_lost_feet;
   if (stances == 0 && transfers == 0) return "";
@@ -65,11 +65,15 @@ std::string fault_lines(const gaits::Verification& verification) {
   return text;
 }
 
+constexpr double same_place = 1e-6;  ///< of the greatest reach
+
 /// Where a plan was made with another friction than the scene has; "" if nowhere (a plan need not state any).
 std::string other_friction(const gaits::Scene& scene, const gaits::Plan& plan) {
   const auto differs = [&](const terrain::Foothold& foot) {
     const auto here = scene.terrain.foothold_at(foot.chain, foot.s);
-    const bool found = here && here->segment == foot.segment;  // another one: the foot is lost, which is told
+    // A foot that is not where the plan says is lost, which is told.
+    const double near = same_place * scene.robot.reach_max;
+    const bool found = here && (here->position - foot.position).norm() <= near;
     return foot.friction > 0 && found && here->friction != foot.friction;
   };
   for (std::size_t k = 0; k < plan.stances.size(); ++k)

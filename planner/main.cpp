@@ -213,7 +213,7 @@ int run(int count, char** words) {
     return exit_bad_input;
   }
   try {
-    if (const std::string fault = equals_sign(count, words); !fault.empty()) throw InputError(fault);
+    if (const std::string fault = equals_sign(app, count, words); !fault.empty()) throw InputError(fault);
     app.parse(count, words);
     if (const std::string fault = empty_argument(app); !fault.empty()) throw InputError(fault);
   } catch (const CLI::CallForHelp&) {

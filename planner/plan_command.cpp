@@ -144,11 +144,13 @@ std::string what_would_help(const gaits::Scene& scene, SearchOptions options, bo
   options.progress = [](const std::string&) {};
   const Remedies tried = remedies(scene, options);
   show_progress("");
-  std::string text = "\nNo single change of friction, reach, disturbances, clearance or criterion was found to help.\n";
+  std::string text =
+      fmt::format("\nNo single change of friction, reach, disturbances{} was found to help.\n",
+                  scene.criterion == gaits::Criterion::robust ? ", clearance or criterion" : " or clearance");
   if (!tried.found.empty())
     text =
-        "\nEach of these alone would do (with it a plan was found and verified; with less a short search found "
-        "none):\n";
+        "\nEach of these alone would do (with it a plan was found and verified; with less of a number a short "
+        "search found none):\n";
   for (const RemedyFound& remedy : tried.found) text += fmt::format("  {}\n", remedy.words);
   if (tried.cut_off)
     text += fmt::format("This was cut off by {}: others, or less, might do.\n",

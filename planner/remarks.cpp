@@ -48,24 +48,50 @@ std::string back_face_words(const terrain::BackFace& seen) {
       seen.chain, seen.index, seen.at.x(), seen.at.y(), sides);
 }
 
-/// A goal in solid ground: only one that is bounded below and above can be seen to be.
+/// Middles of the chains, from left to right as the terrain has them; nothing where there are many.
+std::vector<double> middles(const terrain::Terrain& ground) {
+  constexpr int many = 64;
+  std::vector<Eigen::AlignedBox2d> extents(static_cast<std::size_t>(ground.chain_count()));
+  if (ground.chain_count() > many) return {};
+  for (const terrain::Segment& segment : ground.segments())
+    extents[static_cast<std::size_t>(segment.chain)].extend(segment.a).extend(segment.b);
+  std::vector<double> xs;
+  for (const auto& extent : extents) xs.push_back(extent.center().x());
+  return xs;
+}
+
+/// A goal in solid ground: only one that is bounded below and above can be seen to be. Where any x will do, it is not
+/// below some of the chains alone.
 std::string goal_remark(const gaits::Scene& scene) {
-  const auto &x = scene.goal.com_x, &y = scene.goal.com_y;
-  if (!y) return "";
-  const auto bounds = scene.terrain.bounds();
-  const auto [left, right] = x.value_or(std::pair(bounds.min().x(), bounds.max().x()));
-  const auto solid =
-      terrain::solid_around(scene.terrain, {terrain::Point(left, y->first), terrain::Point(right, y->second)});
-  if (!solid) return "";
+  if (!scene.goal.com_y) return "";
+  const auto [low, high] = *scene.goal.com_y;
+  const auto solid = [&, bottom = low, top = high](double left, double right) {
+    return terrain::solid_around(scene.terrain, {terrain::Point(left, bottom), terrain::Point(right, top)});
+  };
+  std::optional<int> chain;
+  if (const auto& x = scene.goal.com_x) {
+    chain = solid(x->first, x->second);
+  } else {
+    const auto bounds = scene.terrain.bounds();
+    const std::vector<double> xs = middles(scene.terrain);
+    const bool all = std::all_of(xs.begin(), xs.end(), [&](double at) { return solid(at, at).has_value(); });
+    if (all && !xs.empty()) chain = solid(bounds.min().x(), bounds.max().x());
+  }
+  if (!chain) return "";
   return fmt::format("the goal lies behind chain {}, in what pictures show as solid ground: is its place meant so?",
-                     *solid);
+                     *chain);
+}
+
+std::vector<Eigen::AlignedBox2d> start_boxes(const gaits::Scene& scene) {
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (const auto& foot : scene.start.feet)
+    if (foot) boxes.emplace_back(foot->position);
+  return boxes;
 }
 
 /// Where start and goal lie, unbounded where the goal is.
 std::vector<Eigen::AlignedBox2d> inhabited(const gaits::Scene& scene) {
-  std::vector<Eigen::AlignedBox2d> boxes;
-  for (const auto& foot : scene.start.feet)
-    if (foot) boxes.emplace_back(foot->position);
+  std::vector<Eigen::AlignedBox2d> boxes = start_boxes(scene);
   constexpr double far = terrain::greatest_coordinate;
   const auto [left, right] = scene.goal.com_x.value_or(std::pair(-far, far));
   const auto [low, high] = scene.goal.com_y.value_or(std::pair(-far, far));
@@ -77,9 +103,8 @@ std::string inside_out_remark(const gaits::Scene& scene) {
   const auto chain = terrain::obstacle_inside_out(scene.terrain, inhabited(scene), too_low(scene.robot));
   if (!chain) return "";
   return fmt::format(
-      "the free side of chain {} is its inside, where neither start nor goal lies: is it an obstacle given the wrong "
-      "way "
-      "round? {}",
+      "the free side of chain {} is its inside, where neither start nor goal lies: is it an obstacle given the "
+      "wrong way round? {}",
       *chain, sides);
 }
 
@@ -113,7 +138,7 @@ std::string scene_remark(const gaits::Scene& scene) {
     return fmt::format("the greatest reach is {:.6g} m: are all lengths, nu among them, in metres?",
                        scene.robot.reach_max);
   const double within = 2 * scene.robot.reach_max;
-  if (const auto seen = terrain::back_face_seen(scene.terrain, within, too_low(scene.robot)))
+  if (const auto seen = terrain::back_face_seen(scene.terrain, within, start_boxes(scene), too_low(scene.robot)))
     return back_face_words(*seen);
   if (std::string inside_out = inside_out_remark(scene); !inside_out.empty()) return inside_out;
   if (std::string upside_down = upside_down_remark(scene); !upside_down.empty()) return upside_down;

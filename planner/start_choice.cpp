@@ -24,8 +24,7 @@ namespace {
 /// Said where no frictionally stable start was found: on most postures there is none.
 constexpr const char* frictional_needs =
     "frictional stability wants a low body between wide, grippy feet: `surefoot region SCENE --stance LEG,LEG` shows "
-    "where "
-    "it holds";
+    "where it holds";
 constexpr int com_samples = 400;          ///< COMs tried per pair of start feet
 constexpr int goal_samples = 200;         ///< before these, drawn from the goal where the start feet reach it
 constexpr int most_moves = 60;            ///< of the safest of these towards where it is safest

@@ -132,10 +132,19 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
   return message;
 }
 
-std::string equals_sign(int count, char** words) {
-  for (int i = 1; i < count && std::string_view(words[i]) != "--"; ++i)
-    if (const std::string_view word = words[i]; word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=')
-      return fmt::format("{}: behind {} stands a space, no equals sign", word, word.substr(0, 2));
+std::string equals_sign(const CLI::App& app, int count, char** words) {
+  const std::vector<std::string> commands = command_names(app);
+  const CLI::App* command = nullptr;
+  for (int i = 1; i < count && std::string_view(words[i]) != "--"; ++i) {
+    const std::string_view word = words[i];
+    if (command == nullptr && std::find(commands.begin(), commands.end(), word) != commands.end())
+      command = app.get_subcommand(std::string(word));
+    if (command == nullptr || word.size() < 3 || word[0] != '-' || word[1] == '-' || word[2] != '=') continue;
+    const CLI::Option* option = command->get_option_no_throw(std::string(word.substr(0, 2)));
+    if (option == nullptr) continue;
+    if (option->get_expected_max() == 0) return fmt::format("{}: {} takes no value", word, word.substr(0, 2));
+    return fmt::format("{}: behind {} stands a space, no equals sign", word, word.substr(0, 2));
+  }
   return "";
 }
 

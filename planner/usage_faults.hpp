@@ -13,7 +13,7 @@ std::string command_missing(const CLI::App& app);
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int count, char** words);
 
 /// A word such as -o=FILE, whose file would be named =FILE; "" if there is none.
-std::string equals_sign(int count, char** words);
+std::string equals_sign(const CLI::App& app, int count, char** words);
 
 /// An argument of the command that is empty, as an unset variable of a script leaves it; "" if there is none.
 std::string empty_argument(const CLI::App& app);

@@ -70,15 +70,12 @@ std::size_t rays_of(const Terrain& terrain, std::size_t count) {
   return std::clamp<std::size_t>(most_tests / terrain.segments().size(), 1, count);
 }
 
-}  // namespace
-
-namespace {
-
 struct ChainEnds {
   const Segment *first = nullptr, *last = nullptr;
   Eigen::AlignedBox2d extent;
   double twice_area = 0;  // [m^2] counterclockwise positive, of the chain closed by a straight line
 
+  bool is_closed() const { return first->a == last->b; }
   void add(const Segment& segment) {
     if (first == nullptr) first = &segment;
     last = &segment;
@@ -87,6 +84,13 @@ struct ChainEnds {
     twice_area += a.x() * b.y() - a.y() * b.x();
   }
 };
+
+/// Whether one of the boxes meets the extent of a chain, or lies below an open one: in a trench that it covers, say.
+bool is_inhabited(const ChainEnds& ends, std::span<const Eigen::AlignedBox2d> boxes) {
+  Eigen::AlignedBox2d room = ends.extent;
+  if (!ends.is_closed()) room.min().y() = -greatest_coordinate;
+  return std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) { return box.intersects(room); });
+}
 
 /// Both ends stand on other ground, or at most `room` above it.
 bool stands_on_ground(const Terrain& terrain, const ChainEnds& ends, double room) {
@@ -105,7 +109,8 @@ std::vector<ChainEnds> ends_of_chains(const Terrain& terrain) {
 
 }  // namespace
 
-std::optional<BackFace> back_face_seen(const Terrain& terrain, double within, double room) {
+std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
+                                       std::span<const Eigen::AlignedBox2d> inhabited, double room) {
   const auto& segments = terrain.segments();
   const std::size_t rays = rays_of(terrain, segments.size());
   const auto chains = ends_of_chains(terrain);
@@ -116,7 +121,7 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within, do
     const auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground);
     if (!seen || is_obstacle[static_cast<std::size_t>(seen->chain)]) continue;
     const ChainEnds& ends = chains[static_cast<std::size_t>(seen->chain)];
-    if (!(ends.twice_area < 0 && stands_on_ground(terrain, ends, room))) return seen;
+    if (ends.twice_area >= 0 || is_inhabited(ends, inhabited) || !stands_on_ground(terrain, ends, room)) return seen;
     is_obstacle[static_cast<std::size_t>(seen->chain)] = true;
   }
   return std::nullopt;
@@ -170,11 +175,8 @@ std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const E
   for (std::size_t chain = 0; chain < chains.size(); ++chain) {
     const ChainEnds& ends = chains[chain];
     if (!(ends.twice_area > 0)) continue;  // free space is outside
-    const bool closed = ends.first->a == ends.last->b;
-    Eigen::AlignedBox2d room_of = ends.extent;
-    if (!closed) room_of.min().y() = -greatest_coordinate;  // somebody may live below, in a trench that it covers
-    const auto lives_in = [&](const Eigen::AlignedBox2d& box) { return box.intersects(room_of); };
-    if (std::any_of(inhabited.begin(), inhabited.end(), lives_in)) continue;
+    const bool closed = ends.is_closed();
+    if (is_inhabited(ends, inhabited)) continue;
     if (closed) return static_cast<int>(chain);
     if (ends.first->a.x() <= ends.last->b.x()) continue;  // ground with a hollow
     if (rays < 2) return std::nullopt;

@@ -30,6 +30,19 @@ std::string meant_by(std::string_view unknown, const std::vector<std::string>& k
   return unknown.size() >= least_letters && longer != keys.end() ? *longer : "";
 }
 
+/// Numbers that are parted by blanks or semicolons.
+bool are_numbers(std::string_view text) {
+  bool several = false;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("; "), text.size());
+    if (!is_number(text.substr(0, end))) return false;
+    const std::size_t next = std::min(text.find_first_not_of("; ", end), text.size());
+    several = several || next < text.size();
+    text.remove_prefix(next);
+  }
+  return several;
+}
+
 std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
 }  // namespace
@@ -131,16 +144,14 @@ std::int64_t Node::integer(std::string_view what) const {
 std::int64_t Node::integer_key(std::string_view what) const {
   if (kind() != Kind::scalar) refuse(what, "an integer");
   const std::string_view text = std::get<std::string_view>(content_);
+  const auto fail_with = [&](const std::string& reason) {
+    fail(std::string(what) + ": " + (quoted_ ? '"' + shown(text) + '"' : shown(text)) + " " + reason);
+  };
   const NumberForm form = form_of(without_sign(text));
-  if (form == NumberForm::leading_zero) {
-    fail(std::string(what) + ": " + shown(text) + " has a leading zero; expected an integer without");
-  }
-  if (form != NumberForm::integer)
-    fail(std::string(what) + ": " + shown(text) + " is not an integer; expected a whole number such as 7");
+  if (form == NumberForm::leading_zero) fail_with("has a leading zero; expected an integer without");
+  if (form != NumberForm::integer) fail_with("is not an integer; expected a whole number such as 7");
   std::int64_t value = 0;
-  if (convert(text, value) != std::errc()) {
-    fail(std::string(what) + ": " + shown(text) + " is out of range; expected an integer of at most 63 bits");
-  }
+  if (convert(text, value) != std::errc()) fail_with("is out of range; expected an integer of at most 63 bits");
   return value;
 }
 
@@ -170,7 +181,7 @@ std::string Node::list_advice(std::size_t n) const {
   if (kind() != Kind::sequence || n == 0) return "";
   const Items& items = std::get<Items>(content_);
   const auto* only = items.size() == 1 ? std::get_if<std::string_view>(&items.front().content_) : nullptr;
-  if (only != nullptr && only->find_first_of("; ") != std::string_view::npos) return "; a comma must part them";
+  if (only != nullptr && !items.front().quoted_ && are_numbers(*only)) return "; a comma must part them";
   if (items.size() != 2 * n) return "";
   std::string meant;
   for (std::size_t i = 0; i < items.size(); ++i) {

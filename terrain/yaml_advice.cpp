@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view line) {
 /// Without indentation and comment (a quoted text with " #" is cut too: it only costs an advice).
 std::string_view content(std::string_view line) {
   const std::string_view whole = trimmed(line);
-  return whole.starts_with('#') ? "" : trimmed(whole.substr(0, whole.find(" #")));
+  return whole.starts_with('#') ? "" : trimmed(whole.substr(0, std::min(whole.find(" #"), whole.find("\t#"))));
 }
 
 bool is_blank(std::string_view line, std::size_t i) { return i >= line.size() || blanks.find(line[i]) != blanks.npos; }
@@ -56,14 +56,21 @@ std::string unclosed(const Source& source, char bracket, const char* what, std::
 constexpr const char* space_after_colon = "; a space must follow a colon";
 constexpr const char* same_column = "; keys of one map, or dashes of one list, begin in the same column";
 
-/// The last line up to that of a position in whose content a no-break space stands: it looks like a space and is none.
+/// A no-break space where a space is meant: it looks like one and is none.
+bool has_no_break_space(std::string_view line) {
+  constexpr std::string_view space = "\u00a0";
+  const std::size_t first = line.starts_with('-') ? 1 : 0;
+  return line.substr(first).starts_with(space) || line.find(":\u00a0") != std::string_view::npos;
+}
+
+/// The last line up to that of a position that has one.
 std::string no_break_space(const Source& source, std::size_t position) {
   const std::size_t end = std::min(source.text.find('\n', position), source.text.size());
   std::size_t number = 0, found = 0;
   for (std::size_t begin = 0; begin < end; ++number) {
     const std::size_t next = std::min(source.text.find('\n', begin), source.text.size());
     const std::string_view line = std::string_view(source.text).substr(begin, next - begin);
-    if (content(line).find("\u00a0") != std::string_view::npos) found = number + 1;
+    if (has_no_break_space(content(line))) found = number + 1;
     begin = next + 1;
   }
   if (found == 0) return "";

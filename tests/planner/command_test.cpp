@@ -226,6 +226,21 @@ TEST_CASE("Where friction is another one than the plan was made with, check says
   const auto run = place.run("check loose.yaml plan.json");
   CHECK(run.status == 1);
   CHECK_THAT(run.err, Catch::Contains("made with friction 0.6 under foot 1 of stance 1, where this scene has 0.11"));
+  // A vertex before the feet changes the numbers of their segments; feet of a chain that begins elsewhere are lost.
+  const std::string slippery = with("friction: 0.6", "friction: 0.11");
+  const auto begun = [&](const char* vertices) {
+    return std::string(slippery).replace(slippery.find("[[-1, 0]"), 8, vertices);
+  };
+  place.write("numbered.yaml", begun("[[-1, 0], [-0.9, 0]"));
+  CHECK_THAT(place.run("check numbered.yaml plan.json").err, Catch::Contains("made with friction 0.6 under foot 1"));
+  place.write("moved.yaml", begun("[[-2, 0]"));
+  CHECK_THAT(place.run("check moved.yaml plan.json").err, !Catch::Contains("made with friction"));
+  // A vertex before the feet changes the numbers of their segments; feet of a chain that begins elsewhere are lost.
+  place.write("numbered.yaml",
+              with("[[-1, 0], [4, 0]]", "[[-1, 0], [-0.9, 0], [4, 0]]", with("friction: 0.6", "friction: 0.11")));
+  CHECK_THAT(place.run("check numbered.yaml plan.json").err, Catch::Contains("made with friction 0.6 under foot 1"));
+  place.write("moved.yaml", with("[[-1, 0], [4, 0]]", "[[-2, 0], [4, 0]]", with("friction: 0.6", "friction: 0.11")));
+  CHECK_THAT(place.run("check moved.yaml plan.json").err, !Catch::Contains("made with friction"));
 }
 
 TEST_CASE("Without a plan the status says so and no file is touched", "[command]") {
@@ -381,9 +396,11 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
     CHECK(run.status == 2);
     CHECK(run.err == "surefoot: error: " + name + " is an empty text\n");
   }
-  for (const std::string word : {"-o=x.json", "-o=", "-q=1"})
+  for (const std::string word : {"-o=x.json", "-o="})
     CHECK_THAT(place.run("plan x " + word).err, Catch::EndsWith("error: " + word + ": behind " + word.substr(0, 2) +
                                                                 " stands a space, no equals sign\n"));
+  CHECK_THAT(place.run("plan x -q=1").err, Catch::EndsWith("error: -q=1: -q takes no value\n"));
+  CHECK_THAT(place.run("plan x -x=1").err, Catch::Contains("not expected here"));
   CHECK_THAT(place.run("validate -- -a=b.yaml").out, Catch::StartsWith("-a=b.yaml: no such file"));
   CHECK_THAT(place.run("simulate vee").err, Catch::Contains("vee: this is a canned scene; expected a posture"));
   CHECK_THAT(place.run("region --posture p.json --wrench 0.1 -0.05").err,

@@ -1,6 +1,7 @@
 // `surefoot validate` as a user runs it.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,7 @@ TEST_CASE("Terrains in millimetres are remarked on, large ones are not", "[valid
   for (const std::string large :
        {"[[-1000, 0], [4000, 0]]", "[[-1000, 0], [500, 0], [500, 0.15], [900, 0.15], [4000, 0]]",
         "[[-1, 1], [-1, 0], [99, 0], [99, 1]]", "[[-99, 0], [99, 0], [199, 5], [299, 0]]",
-        "[[-99, 0], [99, 0], [199, 200]]"}) {
+        "[[-99, 0], [99, 0], [199, 200]]", "[[-99, 0], [99, 0], [99, 30], [199, 30]]"}) {
     INFO(large);
     CHECK_THAT(told(large), Catch::Contains("valid") && !Catch::Contains("remark"));
   }
@@ -79,6 +80,10 @@ TEST_CASE("Obstacles given the wrong way round and goals in solid ground are rem
   CHECK_THAT(told(with_height("[-0.5, -0.01]")), Catch::Contains("remark: the goal lies behind chain 0"));
   CHECK_THAT(told(with("com_x: [1.5, 2]", "com_y: [-0.5, -0.1]")),
              Catch::Contains("remark: the goal lies behind chain 0"));
+  // Under one chain, but over another.
+  CHECK_THAT(told(with("[[-1, 0], [4, 0]]", "[[-1, 0], [1, 0]]\n    - vertices: [[1.05, -0.3], [1.6, -0.3]]",
+                       with("com_x: [1.5, 2]", "com_y: [-0.25, -0.1]"))),
+             !Catch::Contains("remark"));
   // The ordinary way to say that there is no lower limit.
   CHECK_THAT(told(with_height("[-100, 0.6]")), Catch::Contains("valid") && !Catch::Contains("remark"));
 }
@@ -240,8 +245,35 @@ TEST_CASE("A start that cannot stand is refused with its cause by plan and valid
   CHECK_THAT(place.run("validate s.yaml").out, Catch::EndsWith("start stands\n"));
 }
 
-TEST_CASE("A given COM in solid ground is told so", "[validate]") {
+TEST_CASE("The goal's name stands below a ceiling that hides the upper part of the goal", "[validate]") {
   const Workplace place;
+  const auto height_of_name = [&](const std::string& walls) {
+    place.write("s.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [4, 0]]\n" + walls,
+                               with("{x: -0.3}, {x: 0.25}, {x: 0}", "{x: -0.3}, {x: 0.25}, null")));
+    const std::string svg = place.run("validate s.yaml --svg -").out;
+    std::smatch found;
+    REQUIRE(std::regex_search(svg, found, std::regex("y=\"([0-9.]+)\"[^>]*>goal</text>")));
+    std::smatch last;  // the first is that of the legend
+    const std::string rest = found.suffix();
+    REQUIRE(std::regex_search(rest, last, std::regex("y=\"([0-9.]+)\"[^>]*>goal</text>")));
+    return std::stod(last[1]);
+  };
+  const double open = height_of_name("    - vertices: [[2.4, 3], [2.4, 1.5]]\n    - vertices: [[1.4, 1.5], [1.4, 3]]");
+  const double below = height_of_name("    - vertices: [[2.4, 3], [2.4, 1.5], [1.4, 1.5], [1.4, 3]]");
+  CHECK(below > open + 50);
+  // So far out that a line of text is less than what coordinates resolve.
+  place.write("far.yaml",
+              "surefoot: 1\nterrain: {friction: 0.6, chains: [{vertices: [[-1, 1e16], [4, 1e16]]}]}\n"
+              "robot: {radius_of_gyration: 0.2, reach: [0.3, 3.5]}\ndisturbance: {kappa: 0.01, nu: 0.003}\n"
+              "start: {feet: [{x: -0.5}, {x: 0.5}, null], com: [0, 10000000000000002]}\n"
+              "goal: {com_x: [1.5, 2], com_y: [9999999999999992, 9999999999999998]}\n");
+  CHECK(place.run("validate far.yaml --svg far.svg").status == 0);
+}
+
+TEST_CASE("A given COM in solid ground is told so, unless it breaks another rule first", "[validate]") {
+  const Workplace place;
+  place.write("s.yaml", with("  support", "  com: [0, -1.3]\n  support"));
+  CHECK_THAT(place.run("validate s.yaml").out, Catch::Contains("com: foot 1 is 1.3"));
   place.write("s.yaml", with("  support", "  com: [0, -0.3]\n  support"));
   CHECK(place.run("validate s.yaml").out ==
         "s.yaml:10:8: start: the COM lies behind chain 0, in what pictures show as solid ground\n");

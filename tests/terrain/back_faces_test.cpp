@@ -17,26 +17,29 @@ const Chain ground = chain({{-1, 0}, {1, 0}, {2, 0.3}, {4, 0}});
 }  // namespace
 
 TEST_CASE("A ceiling given like ground turns its back to the ground below", "[back_faces]") {
-  const auto seen = back_face_seen(Terrain({ground, chain({{-0.5, 1}, {0.5, 1}})}), 1.5, 0.2);
+  const auto seen = back_face_seen(Terrain({ground, chain({{-0.5, 1}, {0.5, 1}})}), 1.5, {}, 0.2);
   REQUIRE(seen);
   CHECK(seen->chain == 1);
   CHECK(seen->index == 0);
   CHECK(seen->at == Point(0, 1));  // over the middle of the first segment
-  CHECK_FALSE(back_face_seen(Terrain({ground, chain({{0.5, 1}, {-0.5, 1}})}), 1.5, 0.2));
+  CHECK_FALSE(back_face_seen(Terrain({ground, chain({{0.5, 1}, {-0.5, 1}})}), 1.5, {}, 0.2));
 }
 
 TEST_CASE("What lies behind other ground, too far away or without footholds is not asked", "[back_faces]") {
   const Chain shelf = chain({{-0.5, 1}, {0.5, 1}}), ceiling = chain({{0.5, 0.9}, {-0.5, 0.9}});
-  CHECK_FALSE(back_face_seen(Terrain({ground, shelf}), 0.999, 0.2));
-  CHECK_FALSE(back_face_seen(Terrain({ground, ceiling, shelf}), 1.5, 0.2));  // a plate with two sides
-  CHECK_FALSE(back_face_seen(Terrain({chain({{-1, 0}, {1, 0}}, false), shelf}), 1.5, 0.2));
+  CHECK_FALSE(back_face_seen(Terrain({ground, shelf}), 0.999, {}, 0.2));
+  CHECK_FALSE(back_face_seen(Terrain({ground, ceiling, shelf}), 1.5, {}, 0.2));  // a plate with two sides
+  CHECK_FALSE(back_face_seen(Terrain({chain({{-1, 0}, {1, 0}}, false), shelf}), 1.5, {}, 0.2));
 }
 
 TEST_CASE("An obstacle that stands on the ground, open below, may show its inside", "[back_faces]") {
   const Chain floor = chain({{-1, 0}, {1, 0}});
   const std::vector<Point> box{{-0.2, 0.1}, {-0.2, 0.3}, {0.2, 0.3}, {0.2, 0.1}};
-  CHECK_FALSE(back_face_seen(Terrain({floor, chain(box)}), 1.5, 0.11));
-  CHECK(back_face_seen(Terrain({floor, chain(box)}), 1.5, 0.09));  // too high to stand
+  CHECK_FALSE(back_face_seen(Terrain({floor, chain(box)}), 1.5, {}, 0.11));
+  CHECK(back_face_seen(Terrain({floor, chain(box)}), 1.5, {}, 0.09));  // too high to stand
+  // Who stands in it sees a vault that is given like ground.
+  const std::vector<Eigen::AlignedBox2d> inside{Eigen::AlignedBox2d(Point(0.1, 0))};
+  CHECK(back_face_seen(Terrain({floor, chain(box)}), 1.5, inside, 0.11));
 }
 
 TEST_CASE("Ground given the wrong way round is told from ceilings", "[back_faces]") {
@@ -60,8 +63,8 @@ TEST_CASE("Ground given the wrong way round is told from ceilings", "[back_faces
 TEST_CASE("A ray through a vertex does not pass through the solid behind", "[back_faces]") {
   const Chain floor = chain({{-1, 0}, {1, 0}});
   const std::vector<Point> block{{-.5, 1.5}, {.5, 1.5}, {.5, 1}, {0, 1}, {-.5, 1}, {-.5, 1.5}};
-  CHECK_FALSE(back_face_seen(Terrain({floor, chain(block)}), 3, 0.2));
-  const auto reversed = back_face_seen(Terrain({floor, chain({block.rbegin(), block.rend()})}), 3, 0.2);
+  CHECK_FALSE(back_face_seen(Terrain({floor, chain(block)}), 3, {}, 0.2));
+  const auto reversed = back_face_seen(Terrain({floor, chain({block.rbegin(), block.rend()})}), 3, {}, 0.2);
   REQUIRE(reversed);
   CHECK(reversed->at == Point(0, 1));
 }
@@ -86,7 +89,7 @@ TEST_CASE("Ground alone, a V, a riser, an overhang, a closed block look at no ba
                                        {{-1, 0}, {0, 0}, {0, 1}, {1, 1}},
                                        {{-1, 0}, {1, 0}, {1, 0.5}, {0, 0.5}, {0, 1}, {2, 1}},  // an overhang
                                        {{0, 0}, {0, 1}, {1, 1}, {1, 0}, {0, 0}}})  // a block, free space outside
-    CHECK_FALSE(back_face_seen(Terrain({chain(vertices)}), 10, 0.2));
+    CHECK_FALSE(back_face_seen(Terrain({chain(vertices)}), 10, {}, 0.2));
 }
 
 TEST_CASE("Obstacles given the wrong way round are told from ceilings and from rooms that somebody lives in",

@@ -139,6 +139,8 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
       {"t:\n  f: 0.6\n \u00a0c: 1\n", "a no-break space (U+00A0) stands on line 3: write ordinary spaces"},
       {"t:\n\u00a0 f: 0.6\n  c: 1\n", "a no-break space (U+00A0) stands on line 2: write ordinary spaces"},
       {"t:\n  f:\u00a00.6\n  c: 1\n", "a no-break space (U+00A0) stands on line 2: write ordinary spaces"},
+      {"n: a\u00a0b\nt:\n\tf: 0.6\n", "a tab stands in the indentation: indent by spaces"},  // one that is meant
+      {"n: a\t# :\u00a0b\nt:\n\tf: 0.6\n", "a tab stands in the indentation: indent by spaces"},
       {"t:\n\tf: 0.6\n", "a tab stands in the indentation: indent by spaces"},
       {"a: - b\n", "a dash of a list stands at the beginning of its line"},
   };
@@ -189,6 +191,8 @@ TEST_CASE("a comma for a point is found where it parts a list or a map", "[docum
   CHECK(items("0.1, 0.9") == "f.yaml:1:1: x: 0.1, 0.9 is given; expected a list of 2 items in square brackets, [a, b]");
   CHECK_THAT(error_of([&] { parse("1, 2, 3").root().items("x", 3); }),
              Catch::EndsWith("expected a list of 3 items in square brackets, [a, b, c]"));
+  for (const std::string word : {"[a b]", "['1, 2']", "[1 b]", "[1;]"})
+    CHECK_THAT(items(word), Catch::EndsWith("a list of 1 item is given; expected a list of 2 items"));
   for (const std::string apart : {"[-2; 0]", "[-2 0]"})
     CHECK_THAT(items(apart),
                Catch::EndsWith("a list of 1 item is given; expected a list of 2 items; a comma must part them"));

@@ -159,7 +159,7 @@ TEST_CASE("Segments are counted by keys in quotes too, as JSON writes them", "[t
   };
   CHECK(friction_of_first("\"0\"") == 0.4);
   CHECK(friction_of_first("0") == 0.4);
-  CHECK_THROWS_WITH(friction_of_first("\"first\""), Catch::Contains("segment index: first is not an integer"));
+  CHECK_THROWS_WITH(friction_of_first("\"first\""), Catch::Contains("segment index: \"first\" is not an integer"));
   CHECK_THROWS_WITH(friction_of_first("\"1\""), Catch::Contains("segment index: 1 is out of range"));
 }
 

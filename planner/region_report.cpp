@@ -206,7 +206,7 @@ std::string region_to_text(const gaits::RegionFigure& figure, const Region& regi
     if (frictional) describe_frictional(out, *frictional);
     return out;
   }
-  fmt::format_to(put, "{:<8} balanced                {}\n", gaits::equilibrium_name(figure.box),
+  fmt::format_to(put, "{:<8} balanced                 {}\n", gaits::equilibrium_name(figure.box),
                  area(region.equilibrium_area, region.area_error));
   fmt::format_to(put, "{:<8} and sure to stay at rest {}, {} of it\n", gaits::robust_name(figure.box),
                  area(region.robust_area, region.area_error), percent(region.robust_area, region.equilibrium_area));

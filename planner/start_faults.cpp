@@ -143,11 +143,15 @@ bool no_com_balances(const gaits::Scene& scene, const gaits::Feet& feet, const s
   return left.empty();
 }
 
-bool same_place(const gaits::Stance& stance) {
-  const gaits::Feet& feet = stance.feet;
-  const auto& one = feet[0] ? feet[0] : feet[1];
-  const auto& other = feet[2] ? feet[2] : feet[1];
-  return one->position == other->position;
+/// How far the two feet of a stance are apart [m].
+double apart(const gaits::Stance& stance) {
+  const auto& one = stance.feet[0] ? stance.feet[0] : stance.feet[1];
+  const auto& other = stance.feet[2] ? stance.feet[2] : stance.feet[1];
+  return (one->position - other->position).norm();
+}
+
+std::string near_feet(const gaits::Scene& scene, const gaits::Stance& stance) {
+  return apart(stance) < scene.robot.reach_max / 10 ? fmt::format(" for feet {:.3g} m apart", apart(stance)) : "";
 }
 
 }  // namespace
@@ -172,11 +176,12 @@ BalanceFault balance_fault(const gaits::Scene& scene, const gaits::Stance& stanc
   if (!impossible(kappa, nu)) return {false, nobody + "was found to balance every disturbance"};
   if (impossible(0, 0))
     return {true,
-            nobody + "balances, even without disturbances" + (same_place(stance) ? ": they stand at one point" : "")};
+            nobody + "balances, even without disturbances" + (apart(stance) == 0 ? ": they stand at one point" : "")};
   const bool push = impossible(kappa, 0), turn = impossible(0, nu);
   std::string cause = fmt::format("kappa = {} and nu = {} together are too much", kappa, nu);
   if (push != turn)
-    cause = push ? fmt::format("kappa = {} alone is too much", kappa) : fmt::format("nu = {} m alone is too much", nu);
+    cause = push ? fmt::format("kappa = {} alone is too much", kappa)
+                 : fmt::format("nu = {} m alone is too much", nu) + near_feet(scene, stance);
   if (push && turn) cause = fmt::format("kappa = {} alone is too much, and so is nu = {} m", kappa, nu);
   return {true, nobody + "balances every disturbance: " + cause};
 }

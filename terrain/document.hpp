@@ -194,7 +194,7 @@ std::string shown(std::string_view text, std::size_t most = 40);
 std::string lower_case(std::string text);
 
 /// The candidate nearest to a misspelt word, or "" if none is near (edit distance at most 2 or a third of the word, of
-/// two or three letters 1, of one none, letter case aside; of equally near ones the first).
+/// two to four letters 1, of one none, letter case aside; of equally near ones the first).
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace surefoot::terrain

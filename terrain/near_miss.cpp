@@ -39,7 +39,7 @@ std::string lower_case(std::string text) {
 
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates) {
   if (word.size() > longest_word) return "";
-  const std::size_t most = word.size() < 2 ? 0 : word.size() <= 3 ? 1 : std::max<std::size_t>(2, word.size() / 3);
+  const std::size_t most = word.size() < 2 ? 0 : word.size() <= 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);
   std::size_t nearest = most + 1;
   const std::string lower = lower_case(std::string(word));
   std::string best;

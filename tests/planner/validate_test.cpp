@@ -200,6 +200,8 @@ TEST_CASE("A start that cannot stand is refused with its cause by plan and valid
       {with("kappa: 0.1", "kappa: 0.6"), level + "0.6 of the weight, kappa is 0.6"},
       {with("kappa: 0.1", "kappa: 0", with("0.6", "0")), level + "0 of the weight, kappa is 0"},
       {with("nu: 0.03", "nu: 0.3"), none + " every disturbance: nu = 0.3 m alone is too much"},
+      {with("{x: 0.25}", "{x: -0.29}"),
+       none + " every disturbance: nu = 0.03 m alone is too much for feet 0.01 m apart"},
       // On a slope of tangent t friction mu bears pushes down the slope up to tan(atan mu - atan t) =
       // (mu - t) / (1 + mu t): 0.25 / 1.375 for mu = 0.75 and t = 0.5, 0.2 for mu = 1.5 and t = 1.
       {with("0.6", "0.75", with("[4, 0]", "[4, 2.5]", with("kappa: 0.1", "kappa: 0.2"))),

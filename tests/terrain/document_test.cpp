@@ -442,6 +442,7 @@ TEST_CASE("near misses are near", "[document]") {
   CHECK(near_miss("nuo", keys) == "nu");
   CHECK(near_miss("foo", {"com"}).empty());  // of three letters one may differ
   CHECK(near_miss("xml", {"text", "yaml"}).empty());
+  CHECK(near_miss("nope", {"slope"}).empty());
   CHECK(near_miss("un", keys) == "nu");
   CHECK(near_miss("", keys).empty());
   CHECK(near_miss("friction", {}).empty());

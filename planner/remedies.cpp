@@ -131,9 +131,10 @@ gaits::Scene changed(const gaits::Scene& scene, Remedy remedy, double factor) {
 Remedies remedies(const gaits::Scene& scene, const SearchOptions& options) {
   const Trials trials(scene, options);
   Remedies result;
-  for (const Remedy remedy :
-       {Remedy::friction, Remedy::reach, Remedy::disturbances, Remedy::clearance, Remedy::equilibrium})
+  const auto balance = trials.find(Remedy::equilibrium);  // one search, while there is time for it; told last
+  for (const Remedy remedy : {Remedy::friction, Remedy::reach, Remedy::disturbances, Remedy::clearance})
     if (const auto one = trials.find(remedy)) result.found.push_back(*one);
+  if (balance) result.found.push_back(*balance);
   result.cut_off = trials.stopped();
   return result;
 }

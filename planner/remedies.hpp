@@ -1,5 +1,5 @@
-// What would help where no plan was found: one number of the scene after the other, and at last the criterion, is
-// changed alone, until a plan is found that the verifier accepts.
+// What would help where no plan was found: one number of the scene after the other, and the criterion, is changed
+// alone, until a plan is found that the verifier accepts.
 //
 // Guarantee: each remedy named does: the scene with just that change has a verified plan. That less would not do is not
 // proven: it was tried, to `remedy_step`, and no plan was found.

@@ -118,7 +118,7 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& fault, int c
                        meant.empty() ? "" : fmt::format(", did you mean {}?", meant), fmt::join(commands, ", "));
   }
   if (chosen == nullptr) return count > 1 ? option_without_command(app, words[1]) : command_missing(app);
-  const std::string message = fault.what();
+  std::string message = fault.what();
   const std::string unconverted = "Could not convert: ";  // "Could not convert: --time-limit = 1min"
   if (const auto equals = message.find(" = "); message.starts_with(unconverted) && equals != std::string::npos)
     return fmt::format("{}: found {}, expected a {}number",

@@ -118,7 +118,7 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
   for (std::size_t k = 0; k < rays; ++k) {
     const Segment& ground = segments[k * segments.size() / rays];
     if (!ground.surface.foothold) continue;
-    const auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground);
+    auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground);
     if (!seen || is_obstacle[static_cast<std::size_t>(seen->chain)]) continue;
     const ChainEnds& ends = chains[static_cast<std::size_t>(seen->chain)];
     if (ends.twice_area >= 0 || is_inhabited(ends, inhabited) || !stands_on_ground(terrain, ends, room)) return seen;

@@ -56,6 +56,7 @@ std::vector<double> middles(const terrain::Terrain& ground) {
   for (const terrain::Segment& segment : ground.segments())
     extents[static_cast<std::size_t>(segment.chain)].extend(segment.a).extend(segment.b);
   std::vector<double> xs;
+  xs.reserve(extents.size());
   for (const auto& extent : extents) xs.push_back(extent.center().x());
   return xs;
 }

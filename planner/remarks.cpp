@@ -43,12 +43,11 @@ constexpr const char* sides =
 std::string back_face_words(const terrain::BackFace& seen) {
   return fmt::format(
       "chain {} turns its back to chain {} at ({:.6g}, {:.6g}): is one of them given the wrong way round (or meant as "
-      "a plate "
-      "without thickness)? {}",
+      "a plate without thickness)? {}",
       seen.chain, seen.index, seen.at.x(), seen.at.y(), sides);
 }
 
-/// Middles of the chains, from left to right as the terrain has them; nothing where there are many.
+/// x in the middle of each chain [m]; nothing where there are many.
 std::vector<double> middles(const terrain::Terrain& ground) {
   constexpr int many = 64;
   std::vector<Eigen::AlignedBox2d> extents(static_cast<std::size_t>(ground.chain_count()));

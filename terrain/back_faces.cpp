@@ -70,10 +70,11 @@ std::size_t rays_of(const Terrain& terrain, std::size_t count) {
   return std::clamp<std::size_t>(most_tests / terrain.segments().size(), 1, count);
 }
 
-struct ChainEnds {
+struct ChainShape {
   const Segment *first = nullptr, *last = nullptr;
   Eigen::AlignedBox2d extent;
   double twice_area = 0;  // [m^2] counterclockwise positive, of the chain closed by a straight line
+  bool faces_up = false, faces_down = false;
 
   bool is_closed() const { return first->a == last->b; }
   void add(const Segment& segment) {
@@ -82,27 +83,29 @@ struct ChainEnds {
     extent.extend(segment.a).extend(segment.b);
     const Point a = segment.a - first->a, b = segment.b - first->a;
     twice_area += a.x() * b.y() - a.y() * b.x();
+    faces_up = faces_up || segment.normal.y() > 0;
+    faces_down = faces_down || segment.normal.y() < -level;
   }
 };
 
 /// Whether one of the boxes meets the extent of a chain, or lies below an open one: in a trench that it covers, say.
-bool is_inhabited(const ChainEnds& ends, std::span<const Eigen::AlignedBox2d> boxes) {
-  Eigen::AlignedBox2d room = ends.extent;
-  if (!ends.is_closed()) room.min().y() = -greatest_coordinate;
+bool is_inhabited(const ChainShape& shape, std::span<const Eigen::AlignedBox2d> boxes) {
+  Eigen::AlignedBox2d room = shape.extent;
+  if (!shape.is_closed()) room.min().y() = -greatest_coordinate;
   return std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) { return box.intersects(room); });
 }
 
 /// Both ends stand on other ground, or at most `room` above it.
-bool stands_on_ground(const Terrain& terrain, const ChainEnds& ends, double room) {
+bool stands_on_ground(const Terrain& terrain, const ChainShape& shape, double room) {
   const auto is_low = [&](const Point& end, const Segment& own) {
     const Sight sight = look(terrain, end, Point(0, -1), room, &own);
     return sight.met != nullptr && !sight.back && sight.met->chain != own.chain;
   };
-  return is_low(ends.first->a, *ends.first) && is_low(ends.last->b, *ends.last);
+  return is_low(shape.first->a, *shape.first) && is_low(shape.last->b, *shape.last);
 }
 
-std::vector<ChainEnds> ends_of_chains(const Terrain& terrain) {
-  std::vector<ChainEnds> chains(static_cast<std::size_t>(terrain.chain_count()));
+std::vector<ChainShape> shapes_of_chains(const Terrain& terrain) {
+  std::vector<ChainShape> chains(static_cast<std::size_t>(terrain.chain_count()));
   for (const Segment& segment : terrain.segments()) chains[static_cast<std::size_t>(segment.chain)].add(segment);
   return chains;
 }
@@ -113,47 +116,27 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
                                        std::span<const Eigen::AlignedBox2d> inhabited, double room) {
   const auto& segments = terrain.segments();
   const std::size_t rays = rays_of(terrain, segments.size());
-  const auto chains = ends_of_chains(terrain);
+  const auto chains = shapes_of_chains(terrain);
   std::vector<bool> is_obstacle(chains.size(), false);  // as far as is known: open below, and so its inside is seen
   for (std::size_t k = 0; k < rays; ++k) {
     const Segment& ground = segments[k * segments.size() / rays];
     if (!ground.surface.foothold) continue;
     auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground);
     if (!seen || is_obstacle[static_cast<std::size_t>(seen->chain)]) continue;
-    const ChainEnds& ends = chains[static_cast<std::size_t>(seen->chain)];
-    if (ends.twice_area >= 0 || is_inhabited(ends, inhabited) || !stands_on_ground(terrain, ends, room)) return seen;
+    const ChainShape& shape = chains[static_cast<std::size_t>(seen->chain)];
+    if (shape.twice_area >= 0 || is_inhabited(shape, inhabited) || !stands_on_ground(terrain, shape, room)) return seen;
     is_obstacle[static_cast<std::size_t>(seen->chain)] = true;
   }
   return std::nullopt;
 }
 
-namespace {
-
-struct ChainBox {
-  Eigen::AlignedBox2d extent;
-  bool faces_up = false, faces_down = false;
-};
-
-std::vector<ChainBox> boxes_of_chains(const Terrain& terrain) {
-  std::vector<ChainBox> boxes(static_cast<std::size_t>(terrain.chain_count()));
-  for (const Segment& s : terrain.segments()) {
-    ChainBox& box = boxes[static_cast<std::size_t>(s.chain)];
-    box.extent.extend(s.a).extend(s.b);
-    box.faces_up = box.faces_up || s.normal.y() > 0;
-    box.faces_down = box.faces_down || s.normal.y() < -level;
-  }
-  return boxes;
-}
-
-}  // namespace
-
 std::optional<int> ground_upside_down(const Terrain& terrain, double near, double room) {
-  const auto boxes = boxes_of_chains(terrain);
+  const auto chains = shapes_of_chains(terrain);
   std::size_t tests = 0;
-  for (std::size_t chain = 0; chain < boxes.size(); ++chain) {
-    const ChainBox& box = boxes[chain];
-    if (box.faces_up || !box.faces_down) continue;
-    const Point least = box.extent.min(), most = box.extent.max();
+  for (std::size_t chain = 0; chain < chains.size(); ++chain) {
+    const ChainShape& shape = chains[chain];
+    if (shape.faces_up || !shape.faces_down) continue;
+    const Point least = shape.extent.min(), most = shape.extent.max();
     bool below = false, beside = false;
     for (const Segment& other : terrain.segments()) {
       if (++tests > most_tests) return std::nullopt;
@@ -170,18 +153,17 @@ std::optional<int> ground_upside_down(const Terrain& terrain, double near, doubl
 
 std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> inhabited,
                                        double room) {
-  const auto chains = ends_of_chains(terrain);
+  const auto chains = shapes_of_chains(terrain);
   std::size_t rays = rays_of(terrain, 2 * chains.size());
   for (std::size_t chain = 0; chain < chains.size(); ++chain) {
-    const ChainEnds& ends = chains[chain];
-    if (!(ends.twice_area > 0)) continue;  // free space is outside
-    const bool closed = ends.is_closed();
-    if (is_inhabited(ends, inhabited)) continue;
-    if (closed) return static_cast<int>(chain);
-    if (ends.first->a.x() <= ends.last->b.x()) continue;  // ground with a hollow
+    const ChainShape& shape = chains[chain];
+    if (!(shape.twice_area > 0)) continue;  // free space is outside
+    if (is_inhabited(shape, inhabited)) continue;
+    if (shape.is_closed()) return static_cast<int>(chain);
+    if (shape.first->a.x() <= shape.last->b.x()) continue;  // ground with a hollow
     if (rays < 2) return std::nullopt;
     rays -= 2;
-    if (stands_on_ground(terrain, ends, room)) return static_cast<int>(chain);
+    if (stands_on_ground(terrain, shape, room)) return static_cast<int>(chain);
   }
   return std::nullopt;
 }

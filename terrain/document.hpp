@@ -197,4 +197,8 @@ std::string lower_case(std::string text);
 /// two to four letters 1, of one none, letter case aside; of equally near ones the first).
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates);
 
+/// Of `keys` the one that an unknown key stands for, or "": misspelt, written without a space behind its colon, cut
+/// short, or another word for it, as "rho" for "radius_of_gyration".
+std::string key_meant(std::string_view unknown, const std::vector<std::string>& keys);
+
 }  // namespace surefoot::terrain

@@ -29,6 +29,30 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size() % 3][b.size()];
 }
 
+/// Other names of the same, each group padded by "": the symbols of the papers, which postures use and scenes do not,
+/// and what else comes to mind.
+constexpr std::array<std::array<std::string_view, 4>, 6> same_meaning{{
+    {"radius_of_gyration", "rho", "gyration", "gyradius"},
+    {"friction", "mu", "friction_coefficient"},
+    {"normal", "n"},
+    {"p", "position", "point"},
+    {"vertices", "points"},
+    {"feet", "legs", "footholds"},
+}};
+
+/// The one of `keys` that is another name of `word`, or "".
+std::string synonym(std::string_view word, const std::vector<std::string>& keys) {
+  if (word.empty()) return "";
+  for (const auto& names : same_meaning) {
+    const auto is_one = [&names](std::string_view key) {
+      return std::find(names.begin(), names.end(), key) != names.end();
+    };
+    const auto found = is_one(word) ? std::find_if(keys.begin(), keys.end(), is_one) : keys.end();
+    if (found != keys.end()) return *found;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string lower_case(std::string text) {
@@ -51,6 +75,17 @@ std::string near_miss(std::string_view word, const std::vector<std::string>& can
     best = candidate;
   }
   return best;
+}
+
+std::string key_meant(std::string_view unknown, const std::vector<std::string>& keys) {
+  constexpr std::size_t least_letters = 3;
+  const std::string_view before_colon = unknown.substr(0, unknown.find(':'));
+  if (std::find(keys.begin(), keys.end(), before_colon) != keys.end()) return std::string(before_colon);
+  if (std::string near = near_miss(unknown, keys); !near.empty()) return near;
+  if (std::string same = synonym(lower_case(std::string(unknown)), keys); !same.empty()) return same;
+  const auto begun = [&](const std::string& key) { return key.starts_with(std::string(unknown) + '_'); };
+  const auto longer = std::find_if(keys.begin(), keys.end(), begun);  // "com" for "com_x"
+  return unknown.size() >= least_letters && longer != keys.end() ? *longer : "";
 }
 
 }  // namespace surefoot::terrain

@@ -19,17 +19,6 @@ std::errc convert(std::string_view text, Number& value) {
   return std::from_chars(text.data(), text.data() + text.size(), value).ec;
 }
 
-/// Of `keys` the one that an unknown key stands for: written without a space behind its colon, misspelt or cut short.
-std::string meant_by(std::string_view unknown, const std::vector<std::string>& keys) {
-  constexpr std::size_t least_letters = 3;
-  const std::string_view before_colon = unknown.substr(0, unknown.find(':'));
-  if (std::find(keys.begin(), keys.end(), before_colon) != keys.end()) return std::string(before_colon);
-  if (std::string near = near_miss(unknown, keys); !near.empty()) return near;
-  const auto begun = [&](const std::string& key) { return key.starts_with(std::string(unknown) + '_'); };
-  const auto longer = std::find_if(keys.begin(), keys.end(), begun);  // "com" for "com_x"
-  return unknown.size() >= least_letters && longer != keys.end() ? *longer : "";
-}
-
 /// Numbers that are parted by blanks or semicolons.
 bool are_numbers(std::string_view text) {
   bool several = false;
@@ -226,7 +215,7 @@ const Node& Node::require(std::string_view key, std::string_view what, std::stri
   if (const Node* value = find(key)) return *value;
   if (faults()) {
     for (const auto& [name, value] : entries(what)) {
-      if (meant_by(std::get<std::string_view>(name.content_), {std::string(key)}) == key) throw AlreadyTold();
+      if (key_meant(std::get<std::string_view>(name.content_), {std::string(key)}) == key) throw AlreadyTold();
     }
   }
   fail(std::string(what) + ": \"" + std::string(key) + "\" is missing" + std::string(advice));
@@ -264,7 +253,7 @@ void Node::refuse_key(const std::vector<std::string>& keys, std::string_view wha
   }
   if (key.find("\u00a0") != std::string_view::npos)
     fail(message + "a no-break space (U+00A0) stands in it: write ordinary spaces");
-  const std::string meant = meant_by(key, keys);
+  const std::string meant = key_meant(key, keys);
   if (!meant.empty() && key.starts_with(meant + ':')) fail(message + "a space must follow the colon");
   const std::string question = meant.empty() ? "" : "did you mean \"" + meant + "\"?";
   if (const std::string_view place = home(); !place.empty())

@@ -176,6 +176,8 @@ TEST_CASE("What follows from a fault is not told", "[faults]") {
   // A key that was meant for what is missing.
   CHECK(told_of(edited(text, {"goal: {com_x", "goal: {com_z", {}})) ==
         in_file({"21:8: goal: unknown key \"com_z\"; did you mean \"com_x\"?"}));
+  CHECK(told_of(edited(text, {"radius_of_gyration: 0.15", "rho: 0.15", {}})) ==
+        in_file({"11:3: robot: unknown key \"rho\"; did you mean \"radius_of_gyration\"?"}));
   CHECK(told_of(edited(text, {"{criterion: robust}", "{criterion: both, resitution: 0.1}", {}})) ==
         in_file({"17:30: stability: unknown key \"resitution\"; did you mean \"restitution\"?"}));
   CHECK(told_of(edited(text, {"{chain: 0, s: 0.7}", "{y: 0.7}", {}})) ==

@@ -114,7 +114,7 @@ TEST_CASE("every fault of a terrain block has its place and words", "[loader]") 
        "5:23: key \"0\" is given twice; first at line 5"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {0: {}, +0: {}}"), "5:23: segment index: 0 is given twice"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {0: {mu: 1}}"),
-       "5:20: segment 0: unknown key \"mu\"; expected one of: friction, foothold"},
+       "5:20: segment 0: unknown key \"mu\"; did you mean \"friction\"?"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {0: {friction: -1}}"),
        "5:30: friction: -1 is negative; expected a number >= 0"},
       {with_vertices("[[0, 0], [4, 0]]", "    segments: {0: false}"),

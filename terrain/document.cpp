@@ -273,7 +273,7 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
     const std::string message = readable(error.msg);
     const std::string advice = yaml_advice(source, message, static_cast<std::size_t>(mark.pos), builder.open());
     throw source.error(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column),
-                       "not valid YAML: " + shown(message, longest_message) + advice);
+                       not_valid(source) + shown(message, longest_message) + advice);
   }
   if (!builder.complete()) throw source.error(0, 0, "nothing but white space or comments");
   if (builder.last_quoted() != std::string::npos) source.check_quotes(builder.last_quoted());

@@ -46,6 +46,10 @@ bool is_flow_text(const Source& source) {
   return begin < text.size() && (text[begin] == '{' || text[begin] == '[');
 }
 
+const char* not_valid(const Source& source) {
+  return is_flow_text(source) ? "not valid JSON or YAML: " : "not valid YAML: ";
+}
+
 void check_flow_brackets(const Source& source) {
   const std::string_view text = source.text;
   if (!is_flow_text(source)) return;
@@ -64,14 +68,14 @@ void check_flow_brackets(const Source& source) {
       if (open.empty()) return;
       const char meant = text[open.back()] == '{' ? '}' : ']';
       if (c != meant)
-        source.fail_at(i, std::string("not valid YAML: '") + c + "' is found where '" + meant + "' must end the " +
+        source.fail_at(i, std::string(not_valid(source)) + "'" + c + "' is found where '" + meant + "' must end the " +
                               open_one(source, open.back()));
       open.pop_back();
     }
   }
   if (open.empty()) return;
   const char meant = text[open.back()] == '{' ? '}' : ']';
-  source.fail_at(text.find_last_not_of(blanks) + 1, std::string("not valid YAML: the text ends, but a '") + meant +
+  source.fail_at(text.find_last_not_of(blanks) + 1, std::string(not_valid(source)) + "the text ends, but a '" + meant +
                                                         "' is missing in the " + open_one(source, open.back()));
 }
 

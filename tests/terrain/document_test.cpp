@@ -51,7 +51,7 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
        "f.yaml:2:1: content after the end of the value; expected one value (is the indentation right?)"},
       {"a: 1\n...\nb: 2\n",
        "f.yaml:3:1: content after the end of the value; expected one value (is the indentation right?)"},
-      {"[1, 2]\n}\n", "f.yaml:2:1: not valid YAML: illegal flow end; a closing bracket without an opening one"},
+      {"[1, 2]\n}\n", "f.yaml:2:1: not valid JSON or YAML: illegal flow end; a closing bracket without an opening one"},
       {"a: 1\nb: 2\n\"a\": 3\n", "f.yaml:3:1: key \"a\" is given twice; first at line 1"},
       {"{b: {c: 1, d: 2, c: 3}}", "f.yaml:1:18: key \"c\" is given twice; first at line 1"},
       {"z: 1\na: 1\nz: 2\na: 2\n", "f.yaml:3:1: key \"z\" is given twice; first at line 1"},
@@ -68,8 +68,7 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"a: 'it''s\n", "f.yaml:1:4: this quote is never closed; expected another '"},
       {"a: [1, 2\nb: 3\n",
        "f.yaml:2:2: not valid YAML: end of sequence flow not found; is a ']' or a comma missing in the list that "
-       "begins at "
-       "f.yaml:1:4?"},
+       "begins at f.yaml:1:4?"},
       {"\"\\", "f.yaml:1:4: not valid YAML: unknown escape character"},
       {"\"\\\u00e4\"", "f.yaml:1:4: not valid YAML: unknown escape character"},
       {"a: b: c\n",
@@ -109,17 +108,16 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
       {"d: {k: 1}}\n", "a closing bracket without an opening one"},
       // JSON that was cut, or whose brackets do not match; brackets and quotes in texts and comments do not count.
       {"{\"a\": 1, \"b\": [1, 2]\n",
-       "f.yaml:1:21: not valid YAML: the text ends, but a '}' is missing in the map that "
-       "begins at f.yaml:1:1"},
+       "f.yaml:1:21: not valid JSON or YAML: the text ends, but a '}' is missing in the map that begins at f.yaml:1:1"},
       {"{\"a\": \"]}\\\"\", # {\n \"b\": {\"c\": 1}\n",
-       "f.yaml:2:15: not valid YAML: the text ends, but a '}' is missing in the map that begins at f.yaml:1:1"},
+       "f.yaml:2:15: not valid JSON or YAML: the text ends, but a '}' is missing in the map that begins at f.yaml:1:1"},
       {"{\"x\": [{\"y\": -0.5]}",
-       "f.yaml:1:18: not valid YAML: ']' is found where '}' must end the map that begins at f.yaml:1:8"},
+       "f.yaml:1:18: not valid JSON or YAML: ']' is found where '}' must end the map that begins at f.yaml:1:8"},
       {"# c\n--- {n: it's, x: [1, 2}\n",
-       "f.yaml:2:23: not valid YAML: '}' is found where ']' must end the list that begins at f.yaml:2:18"},
+       "f.yaml:2:23: not valid JSON or YAML: '}' is found where ']' must end the list that begins at f.yaml:2:18"},
       {"{n: it's, v: [[0, 0] [1, 0]]}\n", "]' or a comma missing in the list that begins at f.yaml:1:14?"},
       {"{\"x\": [1, 2}}",
-       "f.yaml:1:12: not valid YAML: '}' is found where ']' must end the list that begins at f.yaml:1:7"},
+       "f.yaml:1:12: not valid JSON or YAML: '}' is found where ']' must end the list that begins at f.yaml:1:7"},
       {"r:\n  a: 1\n    b: 2\n", "keys of one map, or dashes of one list, begin in the same column"},
       {"goal:{com_x: [1.5, 1.9]}   # there\n", "a space must follow a colon"},
       {"r:\n  a: 1\n  clearance:0.1   # [m]\ns: 2\n", "a space must follow a colon"},
@@ -147,7 +145,7 @@ TEST_CASE("what the parser only calls invalid is explained by its usual cause", 
   for (const auto& [text, advice] : refusals) {
     CAPTURE(text);
     const std::string error = parse_error(text);
-    CHECK_THAT(error, Catch::StartsWith("f.yaml:") && Catch::Contains(": not valid YAML: ") && Catch::EndsWith(advice));
+    CHECK_THAT(error, Catch::StartsWith("f.yaml:") && Catch::Contains(": not valid ") && Catch::EndsWith(advice));
     CHECK(error.find('\n') == std::string::npos);
   }
   CHECK(parse_error("surefoot:1\nname: x\n") ==
@@ -447,6 +445,12 @@ TEST_CASE("near misses are near", "[document]") {
   CHECK(near_miss("", keys).empty());
   CHECK(near_miss("friction", {}).empty());
   CHECK(near_miss(std::string(100000, 'a'), keys).empty());
+  CHECK(key_meant("Rho", keys) == "radius_of_gyration");
+  CHECK(key_meant("mu", {"kappa", "friction"}) == "friction");
+  CHECK(key_meant("mu", keys) == "nu");  // what resembles it stands in the same map
+  CHECK(key_meant("radius_of_gyration", {"com", "rho"}) == "rho");
+  CHECK(key_meant("legs", {"com", "feet"}) == "feet");
+  CHECK(key_meant("rho", {"com", "feet"}).empty());
 }
 
 }  // namespace

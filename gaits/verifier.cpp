@@ -115,6 +115,7 @@ void Verifier::rebuild_all() {
     landing_.push_back(checks_.rebuild(transfer_name(k, transfer.leg), transfer.leg, transfer.foothold));
   }
   checks_.tell_lost_feet();
+  checks_.tell_renumbered_feet();
 }
 
 bool Verifier::has_lost(std::size_t k) const {

@@ -41,10 +41,12 @@ class Checks {
   }
 
   /// The foot at (chain, s); also compares the segment with what is stated. Nothing where no foot can be, or where the
-  /// position stated is another one: a lost foot. `stated` is referred to until tell_lost_feet.
+  /// position stated is another one: a lost foot. `stated` is referred to until both functions that tell.
   std::optional<Foot> rebuild(const std::string& place, int leg, const terrain::Foothold& stated);
   /// Notes all feet lost so far, and what has come between them and the ground where that can be told.
   void tell_lost_feet();
+  /// Notes all feet so far that stand where the plan says, but on another segment.
+  void tell_renumbered_feet();
   void check_reach(const std::string& place, const Posture& feet, const Point& from, const Point& to);
   void check_clearance(const std::string& place, const Point& from, const Point& to);
   void check_leg(const std::string& place, const char* when, int leg, const Point& com, const Foot& foot);
@@ -63,6 +65,12 @@ class Checks {
     int leg;
     const terrain::Foothold* stated;
     std::string message;
+  };
+  struct RenumberedFoot {
+    std::string place;
+    int leg;
+    const terrain::Foothold* stated;
+    int segment;  ///< on which it stands
   };
   template <typename... Parts>
   void lose(const std::string& place, int leg, const terrain::Foothold& stated, fmt::format_string<Parts...> format,
@@ -95,6 +103,7 @@ class Checks {
   double least_factor_ = std::numeric_limits<double>::infinity();
   std::vector<Fault> faults_;
   std::vector<LostFoot> lost_;
+  std::vector<RenumberedFoot> renumbered_;
 };
 
 std::string show(const Point& p);  ///< "(1.5, 0.25)", for messages

@@ -45,14 +45,7 @@ std::optional<Foot> Checks::rebuild(const std::string& place, int leg, const Foo
       note(Rule::foothold, place, "foot {} stands on segment {} of chain {}, where no foot may stand", leg + 1,
            segment.index, segment.chain);
     }
-    if (stated.segment != segment.index) {
-      // The same words at every foot after a vertex that was added.
-      note(Rule::foothold, place,
-           "the segment stated of a foot on chain {} is {} too {} for its position and arc length, which agree: have "
-           "vertices before it come or gone?",
-           stated.chain, std::abs(std::int64_t{stated.segment} - segment.index),
-           stated.segment > segment.index ? "high" : "low");
-    }
+    if (stated.segment != segment.index) renumbered_.push_back({place, leg, &stated, segment.index});
     return foot;
   }
   if (!chain_exists) {
@@ -133,6 +126,26 @@ void Checks::tell_lost_feet() {
   for (std::size_t i = 0; i < lost_.size(); ++i)
     if (!group_of[i] || !told_together(moved[*group_of[i]]))
       note(Rule::foothold, lost_[i].place, "{}", lost_[i].message);
+}
+
+// Where vertices were added or taken away, the same words at every foot after them: one cause.
+void Checks::tell_renumbered_feet() {
+  std::set<std::pair<int, double>> footholds;
+  for (const RenumberedFoot& foot : renumbered_) footholds.emplace(foot.stated->chain, foot.stated->s);
+  for (const auto& [place, leg, stated, segment] : renumbered_) {
+    if (footholds.size() == 1) {
+      note(Rule::foothold, place,
+           "foot {} is said to stand on segment {}, but its position and s lie on segment {} of "
+           "chain {}",
+           leg + 1, stated->segment, segment, stated->chain);
+    } else {
+      note(Rule::foothold, place,
+           "the segment stated of a foot on chain {} is {} too {} for its position and arc length, which agree: have "
+           "vertices before it come or gone?",
+           stated->chain, std::abs(std::int64_t{stated->segment} - segment),
+           stated->segment > segment ? "high" : "low");
+    }
+  }
 }
 
 }  // namespace surefoot::gaits::bare

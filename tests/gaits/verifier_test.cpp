@@ -142,7 +142,12 @@ TEST_CASE("feet stand where the scene lets them, and where the plan says", "[ver
     plan = plan_by_hand(scene);
     plan.stances[1].feet[2]->segment = 1;
     require_only(verify(scene, plan), Rule::foothold, "stance 2",
-                 "the segment stated of a foot on chain 0 is 1 too high");
+                 "foot 3 is said to stand on segment 1, but its position and s lie on segment 0 of chain 0");
+    plan.stances[0].feet[1]->segment = plan.stances[1].feet[1]->segment = 1;
+    const auto found = verify(scene, plan);
+    CHECK(found.faults.size() == 3);  // two footholds: one cause for all
+    for (const char* place : {"stance 1", "stance 2"})
+      require_only(found, Rule::foothold, place, "the segment stated of a foot on chain 0 is 1 too high");
   }
   SECTION("normals and friction in a plan are not believed") {
     plan.stances[0].feet[0]->normal = {1, 0};

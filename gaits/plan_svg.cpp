@@ -1,6 +1,7 @@
 // The picture of a plan. Layers from back to front: goal, R_SS(W), solid ground, legs, COM path, surface, feet, labels.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -91,22 +92,35 @@ class PlanPicture {
   /// Solid ground may hide the goal, but neither its name nor, where its height is given, its edges.
   void label_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
     if (scene_.goal.com_y) draw_goal(row, goal, {.stroke = goal_colour, .width = 1.5});
-    canvas_.text(row.view(label_place(goal)) + Vector2d(0, 15), "goal",
+    canvas_.text(row.view(label_place(row, goal)) + Vector2d(0, 15), "goal",
                  {.colour = "#6b6400", .anchor = "middle", .bold = true});
   }
 
-  /// The highest place at which the goal's name does not stand in solid ground, among the first few lines.
-  Vector2d label_place(const Eigen::AlignedBox2d& goal) const {
+  /// Whether the goal's name beneath `at` [m] would cover a waypoint or its label, which stands above it.
+  bool covers_waypoint(const PageRow& row, const Vector2d& at) const {
+    constexpr double width = 44, top = -14, bottom = 40;  // [px] of name and label, from `at`
+    return std::any_of(row.stances.begin(), row.stances.end(), [&](int k) {
+      const Vector2d from = row.view(plan_.stances[k].com) - row.view(at);
+      return std::abs(from.x()) < width / 2 && from.y() > top && from.y() < bottom;
+    });
+  }
+
+  /// The highest place, among the first few lines, at which the goal's name does not stand in solid ground and, if it
+  /// can be, covers no waypoint.
+  Vector2d label_place(const PageRow& row, const Eigen::AlignedBox2d& goal) const {
     constexpr std::size_t many = 100'000;  // segments, of which each place asks all
     constexpr int lines = 50;
     const Vector2d top(goal.center().x(), goal.max().y()), line(0, 18 / page_.scale);
     if (scene_.terrain.segments().size() > many) return top;
+    std::optional<Vector2d> free;
     for (int k = 0; k < lines; ++k) {
       const Vector2d at = top - k * line;
       if (at.y() - line.y() < goal.min().y()) break;
-      if (!terrain::solid_around(scene_.terrain, Eigen::AlignedBox2d(at - 0.7 * line))) return at;
+      if (terrain::solid_around(scene_.terrain, Eigen::AlignedBox2d(at - 0.7 * line))) continue;
+      if (!covers_waypoint(row, at)) return at;
+      if (!free) free = at;
     }
-    return top;
+    return free.value_or(top);
   }
 
   /// Where the COM can be: within reach of every planted foot (as a polygon of 32 corners for each).

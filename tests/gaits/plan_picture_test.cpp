@@ -276,6 +276,35 @@ TEST_CASE("positions in the picture agree with the scale bar, and R_SS(W) with t
   REQUIRE(on_edge >= 4);
 }
 
+TEST_CASE("the name of the goal covers neither a waypoint nor its label", "[plan_svg]") {
+  Scene scene = scene_on(level_ground_and());
+  const Plan plan = plan_by_hand(scene);  // ends at (0.8, 0.5)
+  const double top = GENERATE(0.48, 0.5, 0.51, 0.52, 0.53, 0.55, 0.6);
+  CAPTURE(top);
+  scene.goal.com_x = {0.75, 0.85};
+  scene.goal.com_y = {0.05, top};
+  struct Box {
+    double left, right, above, below;  // [px]
+  };
+  std::vector<Box> goals, others;
+  each_element(read_xml_text(to_svg(scene, plan)), [&](const std::string& name, const ptree& element) {
+    const auto at = [&](const char* key) { return element.get<double>(std::string("<xmlattr>.") + key); };
+    const auto letters = [&](double half, double height) {
+      return Box{at("x") - half, at("x") + half, at("y") - height, at("y")};
+    };
+    if (name == "circle" && element.count("title"))
+      others.push_back({at("cx") - 3, at("cx") + 3, at("cy") - 3, at("cy") + 3});
+    if (name == "text" && element.data() == "end") others.push_back(letters(9, 8));
+    if (name == "text" && element.data() == "goal" && element.get("<xmlattr>.text-anchor", "") == "middle")
+      goals.push_back(letters(14, 9));
+  });
+  REQUIRE(goals.size() == 1);
+  REQUIRE(others.size() == 4);
+  const Box& goal = goals.front();
+  for (const Box& other : others)
+    CHECK((other.right < goal.left || goal.right < other.left || other.below < goal.above || goal.below < other.above));
+}
+
 TEST_CASE("scenes of any size and place are drawn", "[plan_svg]") {
   for (const double factor : {1e-6, 1e6})
     for (const double shift : {0.0, 1e6}) {

@@ -175,7 +175,8 @@ std::string Explainer::place_words() const {
   if (!result_.x) return words.empty() ? "" : words.substr(0, words.size() - 2) + ": ";
   words += interval_words("x", *result_.x);
   const bool upright = number(result_.x->first) == number(result_.x->second);
-  if (result_.y && !flat && upright) words += " and " + interval_words("y", *result_.y);
+  if (result_.obstacle == Obstacle::goal && scene_.goal.com_y) words += ", " + interval_words("y", *scene_.goal.com_y);
+  else if (result_.y && !flat && upright) words += " and " + interval_words("y", *result_.y);
   return words + ": ";
 }
 

@@ -219,6 +219,11 @@ TEST_CASE("that a goal cannot be stood on is proven", "[search]") {
     CHECK(plan.status == gaits::Status::infeasible);
     CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 8 and 9: "));
   }
+  SECTION("too high: proven, and its height told beside its place") {
+    const auto plan = run(gaits::parse_scene(scene_text(level, three_feet, "{com_x: [1, 2], com_y: [5, 6]}"), "high"));
+    CHECK(plan.status == gaits::Status::infeasible);
+    CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 1 and 2, between y = 5 and 6: "));
+  }
   SECTION("ground too steep to stand on: proven") {
     const auto plan =
         run(gaits::parse_scene(scene_text("  friction: 0.4\n  chains:\n    - vertices: [[-1, 0], [1, 0], [6, 5]]\n",

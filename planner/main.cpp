@@ -70,7 +70,7 @@ CLI::App* add_plan(CLI::App& app, PlanArguments& a) {
       ->type_name("NAME");
   plan->add_option("--svg", a.svg, "also draw the plan")->type_name("FILE");
   plan->add_option("--html", a.html, "also make a page that plays the gait in a browser")->type_name("FILE");
-  plan->add_option("--seed", a.seed, "seed of the search (default: the scene's, else 1)")->type_name("N");
+  plan->add_option("--seed", a.seed, "seed of the search (default: the scene's, else 1)")->type_name(whole_number);
   plan->add_option("--time-limit", a.time_limit, "seconds until the search gives up (default: the scene's, else 10)")
       ->type_name("S");
   plan->add_option("--planner", a.planner, fmt::format("{}", fmt::join(planner_names(), ", ")))->type_name("NAME");
@@ -180,10 +180,10 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   simulate->add_option("--time-limit", a.time_limit, "simulated seconds (default 100)")->type_name("S");
   simulate->add_flag("--linearised", a.linearised, "the linearised dynamics about the posture");
   simulate->add_option("--sample", a.sample, "random pushes; without com random COMs, without POSTURE random postures")
-      ->type_name("N");
+      ->type_name(whole_number);
   simulate->add_option("--size", a.size, "of random pushes, relative to the distance of the contacts (default 1e-6)")
       ->type_name("X");
-  simulate->add_option("--seed", a.seed, "of random pushes (default 1)")->type_name("N");
+  simulate->add_option("--seed", a.seed, "of random pushes (default 1)")->type_name(whole_number);
   simulate->add_option("--svg", a.svg, "draw heights and angle over time; - for standard output")->type_name("FILE");
   simulate->add_option("--json", a.json, "outcome and events; - for standard output")->type_name("FILE");
   simulate->footer(
@@ -216,6 +216,7 @@ int run(int count, char** words) {
     if (const std::string fault = equals_sign(app, count, words); !fault.empty()) throw InputError(fault);
     app.parse(count, words);
     if (const std::string fault = empty_argument(app); !fault.empty()) throw InputError(fault);
+    if (const std::string fault = overflowing_argument(app); !fault.empty()) throw InputError(fault);
   } catch (const CLI::CallForHelp&) {
     write_stdout(app.help());
     return exit_success;

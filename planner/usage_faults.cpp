@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 #include <vector>
@@ -145,6 +147,23 @@ std::string equals_sign(const CLI::App& app, int count, char** words) {
     if (option->get_expected_max() == 0) return fmt::format("{}: {} takes no value", word, word.substr(0, 2));
     return fmt::format("{}: behind {} stands a space, no equals sign", word, word.substr(0, 2));
   }
+  return "";
+}
+
+std::string overflowing_argument(const CLI::App& app) {
+  const auto overflows = [](const CLI::Option& option, const std::string& given) {
+    if (option.get_type_name().size() != 1) return false;  // other types than numbers have longer names
+    char* end = nullptr;
+    errno = 0;
+    if (option.get_type_name() == whole_number) std::strtoll(given.c_str(), &end, 10);
+    else if (!std::isinf(std::strtod(given.c_str(), &end))) errno = 0;  // too small is none
+    return errno == ERANGE && *end == '\0';
+  };
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& given : option->results())
+        if (overflows(*option, given))
+          return fmt::format("{}: found {}, which is out of range", option->get_name(), terrain::shown(given));
   return "";
 }
 

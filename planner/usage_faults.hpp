@@ -6,6 +6,9 @@
 
 namespace surefoot::planner {
 
+/// Name of the type of options that take one.
+constexpr const char* whole_number = "N";
+
 /// Said where there is none, with those that there are.
 std::string command_missing(const CLI::App& app);
 
@@ -17,5 +20,8 @@ std::string equals_sign(const CLI::App& app, int count, char** words);
 
 /// An argument of the command that is empty, as an unset variable of a script leaves it; "" if there is none.
 std::string empty_argument(const CLI::App& app);
+
+/// A number that the parser has cut to the range of its type; "" if there is none.
+std::string overflowing_argument(const CLI::App& app);
 
 }  // namespace surefoot::planner

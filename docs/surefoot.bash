@@ -37,6 +37,11 @@ _surefoot() {
     # Upper case behind the option: some other value, of which nothing is known here.
     [[ $entry =~ ^\ \ -[^\ ]*\ [A-Z] && ! $entry =~ Excludes:|\ SCENE\  ]] && return
   fi
+  if [[ $command == bench ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$("$program" bench --list 2>/dev/null | awk '{ print $1 }')" -- "$word")
+    return
+  fi
+  [[ $help == *$'\nPositionals:'* ]] || return
   compopt -o filenames 2>/dev/null
   mapfile -t COMPREPLY < <(compgen -f -- "$word")
   if [[ $help == *$'\n  SCENE '* || $entry == *" SCENE "* ]]; then

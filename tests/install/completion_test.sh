@@ -56,6 +56,8 @@ is "canned scenes and files" "$(offered plan stairs)" $'stairs_up\nstairs_down\n
 is "canned scenes and files behind --scene" "$(offered simulate --scene stairs)" $'stairs_up\nstairs_down\nstairs.txt'
 is "the plan of check" "$(offered check flat "a p")" "a plan.json"
 is "files behind --svg" "$(offered plan --svg st)" stairs.txt
+is "items of bench, where it is built" "$(offered bench "")" "$("$program" bench --list 2>/dev/null | awk '{ print $1 }')"
+is "nothing behind maps" "$(offered maps "")" ""
 is "nothing behind --seed" "$(offered plan --seed "")" ""
 is "a file behind a flag" "$(offered plan -q stairs.)" stairs.txt
 

@@ -83,10 +83,10 @@ json parse(std::string_view line) {
 void allow_only(const json& object, const std::string& place, const std::vector<std::string>& keys) {
   for (const auto& [key, value] : object.items()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    const std::string meant = terrain::key_meant(key, keys);
-    throw BadLine(fmt::format("{}unknown key \"{}\"{}", place.empty() ? "" : place + ": ", terrain::shown(key),
-                              meant.empty() ? fmt::format(", expected one of: {}", fmt::join(keys, ", "))
-                                            : fmt::format(", did you mean \"{}\"?", meant)));
+    const std::string question =
+        terrain::did_you_mean(key, keys, [&object](const std::string& one) { return object.contains(one); });
+    throw BadLine(fmt::format("{}unknown key \"{}\", {}", place.empty() ? "" : place + ": ", terrain::shown(key),
+                              question.empty() ? fmt::format("expected one of: {}", fmt::join(keys, ", ")) : question));
   }
 }
 

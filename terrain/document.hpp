@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -116,9 +117,11 @@ class Node {
   using Entries = std::vector<std::pair<Node, Node>>;
 
   std::string described() const;  // for messages
-  /// `before` is the entry before it, or nullptr.
-  [[noreturn]] void refuse_key(const std::vector<std::string>& keys, std::string_view what,
+  /// Of `map`; `before` is the entry before it, or nullptr.
+  [[noreturn]] void refuse_key(const Node& map, const std::vector<std::string>& keys, std::string_view what,
                                const std::pair<Node, Node>* before) const;
+  /// "did you mean "friction", which belongs inside "terrain"?" of a key that has another name, or "".
+  std::string question_of_homes() const;
   std::string list_advice(std::size_t n) const;  // for messages
   std::string_view home() const;                 // where this key belongs, if that is known
   bool is_integer() const;
@@ -197,8 +200,15 @@ std::string lower_case(std::string text);
 /// two to four letters 1, of one none, letter case aside; of equally near ones the first).
 std::string near_miss(std::string_view word, const std::vector<std::string>& candidates);
 
-/// Of `keys` the one that an unknown key stands for, or "": misspelt, written without a space behind its colon, cut
-/// short, or another word for it, as "rho" for "radius_of_gyration".
+/// The one of `keys` that is another name of a word, as "radius_of_gyration" of "rho"; "" if none is.
+std::string other_name(std::string_view word, const std::vector<std::string>& keys);
+
+/// Of `keys` the one that an unknown key stands for, or "": another name of it, misspelt, written without a space
+/// behind its colon, or cut short.
 std::string key_meant(std::string_view unknown, const std::vector<std::string>& keys);
+
+/// The question for an unknown key of a map, which is first asked of keys that the map has not; "" if there is none.
+std::string did_you_mean(std::string_view unknown, const std::vector<std::string>& keys,
+                         const std::function<bool(const std::string&)>& is_given);
 
 }  // namespace surefoot::terrain

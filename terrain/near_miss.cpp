@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <iterator>
 #include <numeric>
 
 #include "terrain/document.hpp"
@@ -37,20 +39,14 @@ constexpr std::array<std::array<std::string_view, 4>, 6> same_meaning{{
     {"normal", "n"},
     {"p", "position", "point"},
     {"vertices", "points"},
-    {"feet", "legs", "footholds"},
+    {"feet", "legs", "footholds", "foothold"},
 }};
 
-/// The one of `keys` that is another name of `word`, or "".
-std::string synonym(std::string_view word, const std::vector<std::string>& keys) {
-  if (word.empty()) return "";
-  for (const auto& names : same_meaning) {
-    const auto is_one = [&names](std::string_view key) {
-      return std::find(names.begin(), names.end(), key) != names.end();
-    };
-    const auto found = is_one(word) ? std::find_if(keys.begin(), keys.end(), is_one) : keys.end();
-    if (found != keys.end()) return *found;
-  }
-  return "";
+/// The names that mean the same as a word, itself among them; nullptr if it is not known.
+const std::array<std::string_view, 4>* names_of(std::string_view word) {
+  const auto holds = [word](const auto& names) { return std::find(names.begin(), names.end(), word) != names.end(); };
+  const auto found = std::find_if(same_meaning.begin(), same_meaning.end(), holds);
+  return word.empty() || found == same_meaning.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -77,15 +73,32 @@ std::string near_miss(std::string_view word, const std::vector<std::string>& can
   return best;
 }
 
+std::string other_name(std::string_view word, const std::vector<std::string>& keys) {
+  const auto* const names = names_of(lower_case(std::string(word)));
+  if (names == nullptr) return "";
+  const auto found = std::find_first_of(keys.begin(), keys.end(), names->begin(), names->end());
+  return found == keys.end() ? "" : *found;
+}
+
 std::string key_meant(std::string_view unknown, const std::vector<std::string>& keys) {
   constexpr std::size_t least_letters = 3;
   const std::string_view before_colon = unknown.substr(0, unknown.find(':'));
   if (std::find(keys.begin(), keys.end(), before_colon) != keys.end()) return std::string(before_colon);
+  // "mu" is no slip of the pen for "nu".
+  if (names_of(lower_case(std::string(unknown))) != nullptr) return other_name(unknown, keys);
   if (std::string near = near_miss(unknown, keys); !near.empty()) return near;
-  if (std::string same = synonym(lower_case(std::string(unknown)), keys); !same.empty()) return same;
   const auto begun = [&](const std::string& key) { return key.starts_with(std::string(unknown) + '_'); };
   const auto longer = std::find_if(keys.begin(), keys.end(), begun);  // "com" for "com_x"
   return unknown.size() >= least_letters && longer != keys.end() ? *longer : "";
+}
+
+std::string did_you_mean(std::string_view unknown, const std::vector<std::string>& keys,
+                         const std::function<bool(const std::string&)>& is_given) {
+  std::vector<std::string> absent;
+  std::remove_copy_if(keys.begin(), keys.end(), std::back_inserter(absent), is_given);
+  if (const std::string meant = key_meant(unknown, absent); !meant.empty()) return "did you mean \"" + meant + "\"?";
+  const std::string given = key_meant(unknown, keys);
+  return given.empty() ? "" : "did you mean \"" + given + "\", which is given already?";
 }
 
 }  // namespace surefoot::terrain

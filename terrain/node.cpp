@@ -228,7 +228,7 @@ bool Node::allow_only(Keys keys, std::string_view what) const {
     const Node& name = entry.first;
     const std::string_view key = std::get<std::string_view>(name.content_);
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-      name.attempt([&] { name.refuse_key({keys.begin(), keys.end()}, what, before); });
+      name.attempt([&] { name.refuse_key(*this, {keys.begin(), keys.end()}, what, before); });
       known = false;
     }
     before = &entry;
@@ -243,7 +243,16 @@ std::string_view Node::home() const {
   return "";
 }
 
-void Node::refuse_key(const std::vector<std::string>& keys, std::string_view what,
+std::string Node::question_of_homes() const {
+  if (!source_ || !source_->homes) return "";
+  for (const auto& [place, keys] : *source_->homes) {
+    const std::string name = other_name(std::get<std::string_view>(content_), {keys.begin(), keys.end()});
+    if (!name.empty()) return "did you mean \"" + name + "\", which belongs " + std::string(place) + "?";
+  }
+  return "";
+}
+
+void Node::refuse_key(const Node& map, const std::vector<std::string>& keys, std::string_view what,
                       const std::pair<Node, Node>* before) const {
   const std::string_view key = std::get<std::string_view>(content_);
   const std::string message = std::string(what) + ": unknown key \"" + shown(key) + "\"; ";
@@ -253,12 +262,13 @@ void Node::refuse_key(const std::vector<std::string>& keys, std::string_view wha
   }
   if (key.find("\u00a0") != std::string_view::npos)
     fail(message + "a no-break space (U+00A0) stands in it: write ordinary spaces");
-  const std::string meant = key_meant(key, keys);
-  if (!meant.empty() && key.starts_with(meant + ':')) fail(message + "a space must follow the colon");
-  const std::string question = meant.empty() ? "" : "did you mean \"" + meant + "\"?";
+  if (const std::string meant = key_meant(key, keys); !meant.empty() && key.starts_with(meant + ':'))
+    fail(message + "a space must follow the colon");
+  std::string question = did_you_mean(key, keys, [&map](const std::string& one) { return map.find(one) != nullptr; });
   if (const std::string_view place = home(); !place.empty())
-    fail(message + "it belongs " + std::string(place) + (meant.empty() ? "" : " (or " + question + ")"));
-  if (!meant.empty()) fail(message + question);
+    fail(message + "it belongs " + std::string(place) + (question.empty() ? "" : " (or " + question + ")"));
+  if (question.empty()) question = question_of_homes();
+  if (!question.empty()) fail(message + question);
   std::string list;
   for (const std::string& allowed : keys) list += (list.empty() ? "" : ", ") + allowed;
   fail(message + "expected one of: " + list);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -41,7 +42,7 @@ class Checks {
   }
 
   /// The foot at (chain, s); also compares the segment with what is stated. Nothing where no foot can be, or where the
-  /// position stated is another one: a lost foot. `stated` is referred to until both functions that tell.
+  /// position stated is another one: a lost foot. `stated` is referred to until tell_lost_feet and tell_renumbered_feet.
   std::optional<Foot> rebuild(const std::string& place, int leg, const terrain::Foothold& stated);
   /// Notes all feet lost so far, and what has come between them and the ground where that can be told.
   void tell_lost_feet();
@@ -66,12 +67,14 @@ class Checks {
     const terrain::Foothold* stated;
     std::string message;
   };
-  struct RenumberedFoot {
+  struct StandingFoot {
     std::string place;
     int leg;
     const terrain::Foothold* stated;
     int segment;  ///< on which it stands
+    std::int64_t too_high() const { return std::int64_t{stated->segment} - segment; }
   };
+  static bool vertices_explain(std::vector<const StandingFoot*> feet);
   template <typename... Parts>
   void lose(const std::string& place, int leg, const terrain::Foothold& stated, fmt::format_string<Parts...> format,
             Parts&&... parts) {
@@ -103,7 +106,7 @@ class Checks {
   double least_factor_ = std::numeric_limits<double>::infinity();
   std::vector<Fault> faults_;
   std::vector<LostFoot> lost_;
-  std::vector<RenumberedFoot> renumbered_;
+  std::vector<StandingFoot> standing_;
 };
 
 std::string show(const Point& p);  ///< "(1.5, 0.25)", for messages

@@ -1,7 +1,7 @@
 // Feet of a plan rebuilt from chain and arc length, and compared with where the plan says they stand.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <map>
 #include <set>
 
 #include "gaits/verifier_checks.hpp"
@@ -45,7 +45,7 @@ std::optional<Foot> Checks::rebuild(const std::string& place, int leg, const Foo
       note(Rule::foothold, place, "foot {} stands on segment {} of chain {}, where no foot may stand", leg + 1,
            segment.index, segment.chain);
     }
-    if (stated.segment != segment.index) renumbered_.push_back({place, leg, &stated, segment.index});
+    standing_.push_back({place, leg, &stated, segment.index});
     return foot;
   }
   if (!chain_exists) {
@@ -128,22 +128,39 @@ void Checks::tell_lost_feet() {
       note(Rule::foothold, lost_[i].place, "{}", lost_[i].message);
 }
 
-// Where vertices were added or taken away, the same words at every foot after them: one cause.
+/// Whether the segments stated of the feet on a chain are what vertices that came or went would make of them: further
+/// along, wrong by as much or more.
+bool Checks::vertices_explain(std::vector<const StandingFoot*> feet) {
+  std::sort(feet.begin(), feet.end(), [](const auto* l, const auto* r) { return l->stated->s < r->stated->s; });
+  const auto breaks = [](const StandingFoot* l, const StandingFoot* r) {
+    const std::int64_t before = l->too_high(), after = r->too_high();
+    return l->stated->s == r->stated->s
+               ? before != after
+               : std::min({before, after, after - before}) < 0 && std::max({before, after, after - before}) > 0;
+  };
+  return std::adjacent_find(feet.begin(), feet.end(), breaks) == feet.end();
+}
+
 void Checks::tell_renumbered_feet() {
-  std::set<std::pair<int, double>> footholds;
-  for (const RenumberedFoot& foot : renumbered_) footholds.emplace(foot.stated->chain, foot.stated->s);
-  for (const auto& [place, leg, stated, segment] : renumbered_) {
-    if (footholds.size() == 1) {
-      note(Rule::foothold, place,
-           "foot {} is said to stand on segment {}, but its position and s lie on segment {} of "
-           "chain {}",
-           leg + 1, stated->segment, segment, stated->chain);
-    } else {
-      note(Rule::foothold, place,
-           "the segment stated of a foot on chain {} is {} too {} for its position and arc length, which agree: have "
-           "vertices before it come or gone?",
-           stated->chain, std::abs(std::int64_t{stated->segment} - segment),
-           stated->segment > segment ? "high" : "low");
+  std::map<int, std::vector<const StandingFoot*>> chains;
+  for (const StandingFoot& foot : standing_) chains[foot.stated->chain].push_back(&foot);
+  for (auto& [chain, feet] : chains) {
+    const bool explained = vertices_explain(feet);
+    std::erase_if(feet, [](const StandingFoot* foot) { return foot->too_high() == 0; });
+    const auto same = [&](const StandingFoot* foot) { return foot->stated->s == feet.front()->stated->s; };
+    const bool one_foothold = std::all_of(feet.begin(), feet.end(), same);
+    for (const StandingFoot* foot : feet) {
+      if (explained && !one_foothold) {  // the same words at every place
+        note(Rule::foothold, foot->place,
+             "the segment stated of a foot on chain {} is {} too {} for its position and arc length, which agree: have "
+             "vertices before it come or gone?",
+             chain, std::abs(foot->too_high()), foot->too_high() > 0 ? "high" : "low");
+      } else {
+        note(Rule::foothold, foot->place,
+             "foot {} is said to stand on segment {}, but its position and s lie on segment {} of chain {}{}",
+             foot->leg + 1, foot->stated->segment, foot->segment, chain,
+             explained ? ": have vertices before it come or gone?" : "");
+      }
     }
   }
 }

@@ -143,11 +143,31 @@ TEST_CASE("feet stand where the scene lets them, and where the plan says", "[ver
     plan.stances[1].feet[2]->segment = 1;
     require_only(verify(scene, plan), Rule::foothold, "stance 2",
                  "foot 3 is said to stand on segment 1, but its position and s lie on segment 0 of chain 0");
-    plan.stances[0].feet[1]->segment = plan.stances[1].feet[1]->segment = 1;
-    const auto found = verify(scene, plan);
-    CHECK(found.faults.size() == 3);  // two footholds: one cause for all
-    for (const char* place : {"stance 1", "stance 2"})
-      require_only(found, Rule::foothold, place, "the segment stated of a foot on chain 0 is 1 too high");
+  }
+  SECTION("on other segments than stated: vertices may have come or gone only if all feet further along say so") {
+    const auto moved = [&](std::size_t k, std::size_t leg, int by) { plan.stances[k].feet[leg]->segment += by; };
+    moved(0, 0, 1);   // the first foothold
+    moved(2, 0, -1);  // the last
+    auto found = verify(scene, plan);
+    CHECK(found.faults.size() == 2);
+    for (const auto& fault : found.faults) CHECK(fault.message.find("vertices") == std::string::npos);
+    require_fault(found, Rule::foothold, "stance 1", "foot 1 is said to stand on segment 1, but");
+    require_fault(found, Rule::foothold, "stance 3", "foot 1 is said to stand on segment -1, but");
+    plan = plan_by_hand(scene);
+    moved(2, 0, 1);
+    plan.transfers[1].foothold.segment += 1;
+    require_only(verify(scene, plan), Rule::foothold, "stance 3",
+                 "lie on segment 0 of chain 0: have vertices before it come or gone?");
+    for (const auto& [k, leg] : {std::pair(1, 2), std::pair(2, 2)}) moved(k, leg, 1);  // the one before it
+    plan.transfers[0].foothold.segment += 1;
+    found = verify(scene, plan);
+    CHECK(found.faults.size() == 5);
+    require_only(found, Rule::foothold, "stance 2", "the segment stated of a foot on chain 0 is 1 too high");
+    moved(2, 0, 1);  // two vertices before the last foothold
+    plan.transfers[1].foothold.segment += 1;
+    require_only(verify(scene, plan), Rule::foothold, "stance 3", "of a foot on chain 0 is 2 too high");
+    plan.transfers[1].foothold.segment -= 1;  // twice the same foothold, and not the same segment
+    for (const auto& fault : verify(scene, plan).faults) CHECK(fault.message.find("vertices") == std::string::npos);
   }
   SECTION("normals and friction in a plan are not believed") {
     plan.stances[0].feet[0]->normal = {1, 0};

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "gaits/goal_name.hpp"
 #include "gaits/plan_heading.hpp"
 #include "gaits/plan_io.hpp"
 #include "gaits/plan_page.hpp"
@@ -14,7 +15,6 @@
 #include "gaits/svg_canvas.hpp"
 #include "gaits/terrain_picture.hpp"
 #include "stability/robust_oracle.hpp"
-#include "terrain/back_faces.hpp"
 
 namespace surefoot::gaits {
 namespace {
@@ -92,35 +92,8 @@ class PlanPicture {
   /// Solid ground may hide the goal, but neither its name nor, where its height is given, its edges.
   void label_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
     if (scene_.goal.com_y) draw_goal(row, goal, {.stroke = goal_colour, .width = 1.5});
-    canvas_.text(row.view(label_place(row, goal)) + Vector2d(0, 15), "goal",
+    canvas_.text(goal_name_place(scene_, plan_, row, goal), "goal",
                  {.colour = "#6b6400", .anchor = "middle", .bold = true});
-  }
-
-  /// Whether the goal's name beneath `at` [m] would cover a waypoint or its label, which stands above it.
-  bool covers_waypoint(const PageRow& row, const Vector2d& at) const {
-    constexpr double width = 44, top = -14, bottom = 40;  // [px] of name and label, from `at`
-    return std::any_of(row.stances.begin(), row.stances.end(), [&](int k) {
-      const Vector2d from = row.view(plan_.stances[k].com) - row.view(at);
-      return std::abs(from.x()) < width / 2 && from.y() > top && from.y() < bottom;
-    });
-  }
-
-  /// The highest place, among the first few lines, at which the goal's name does not stand in solid ground and, if it
-  /// can be, covers no waypoint.
-  Vector2d label_place(const PageRow& row, const Eigen::AlignedBox2d& goal) const {
-    constexpr std::size_t many = 100'000;  // segments, of which each place asks all
-    constexpr int lines = 50;
-    const Vector2d top(goal.center().x(), goal.max().y()), line(0, 18 / page_.scale);
-    if (scene_.terrain.segments().size() > many) return top;
-    std::optional<Vector2d> free;
-    for (int k = 0; k < lines; ++k) {
-      const Vector2d at = top - k * line;
-      if (at.y() - line.y() < goal.min().y()) break;
-      if (terrain::solid_around(scene_.terrain, Eigen::AlignedBox2d(at - 0.7 * line))) continue;
-      if (!covers_waypoint(row, at)) return at;
-      if (!free) free = at;
-    }
-    return free.value_or(top);
   }
 
   /// Where the COM can be: within reach of every planted foot (as a polygon of 32 corners for each).
@@ -222,9 +195,9 @@ class PlanPicture {
     for (const int k : row.stances) {
       const Vector2d at = row.view(plan_.stances[k].com);
       const bool is_weakest = weakest_.bounded() && !weakest_.in_transfer && weakest_.index == k;
-      if (is_weakest) canvas_.circle(at, dot_radius + 4, {.fill = weak_colour});
+      if (is_weakest) canvas_.circle(at, ring_radius, {.fill = weak_colour});
       canvas_.circle(at, dot_radius, com_dot, tooltip(k));
-      const Vector2d above = at - Vector2d(0, 8);
+      const Vector2d above = at - Vector2d(0, number_above);
       if (places.take(above, 15))
         canvas_.text(above, k > 0 && k == plan_.steps() ? "end" : std::to_string(k + 1),
                      {.size = 10, .anchor = "middle", .halo = true});
@@ -235,7 +208,7 @@ class PlanPicture {
     std::optional<Vector2d> at = scene_.start.com;
     if (!plan_.stances.empty()) at = plan_.stances.front().com;
     if (!at || &page_.rows[page_.row_of(at->x())] != &row) return;
-    canvas_.text(row.view(*at) - Vector2d(0, 22), "start", {.anchor = "middle", .bold = true, .halo = true});
+    canvas_.text(row.view(*at) - Vector2d(0, start_above), "start", {.anchor = "middle", .bold = true, .halo = true});
   }
 
   void axis(const PageRow& row) {

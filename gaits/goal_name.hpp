@@ -1,0 +1,15 @@
+// Where the picture of a plan says "goal".
+#pragma once
+
+#include "gaits/plan_heading.hpp"
+#include "gaits/plan_page.hpp"
+#include "gaits/scene.hpp"
+
+namespace surefoot::gaits {
+
+/// The middle of the line [px] on which the name of the goal (the part [m] that a row shows) stands: in the goal from
+/// its top down, else above, beneath or beside it; not in solid ground and, if that can be, over no waypoint.
+Eigen::Vector2d goal_name_place(const Scene& scene, const Plan& plan, const PageRow& row,
+                                const Eigen::AlignedBox2d& goal);
+
+}  // namespace surefoot::gaits

@@ -78,6 +78,7 @@ class Explainer {
   void place_between(Graph& graph);
   std::set<int> feet_of(const Graph& graph, const std::vector<int>& nodes) const;
   AlignedBox2d box_of(const std::set<int>& pieces) const;
+  std::string goal_words() const;  // as the scene gives it
   std::string place_words() const;
   std::string rule_words(const Rules& rules) const;
   std::string gap_words() const;
@@ -165,18 +166,26 @@ std::string interval_words(const char* axis, const Interval& interval) {
   return from == to ? fmt::format("at {} = {}", axis, from) : fmt::format("between {} = {} and {}", axis, from, to);
 }
 
+std::string Explainer::goal_words() const {
+  const auto words = [](const char* axis, const std::optional<Interval>& interval) {
+    if (!interval) return std::string();
+    const auto& [from, to] = *interval;
+    return from == to ? fmt::format("at {} = {}", axis, from) : fmt::format("between {} = {} and {}", axis, from, to);
+  };
+  const std::string x = words("x", scene_.goal.com_x), y = words("y", scene_.goal.com_y);
+  return "in the goal, " + x + (x.empty() || y.empty() ? "" : " and ") + y + ": ";
+}
+
 std::string Explainer::place_words() const {
-  std::string words;
-  if (result_.obstacle == Obstacle::start) words = "at the start, ";
-  if (result_.obstacle == Obstacle::goal) words = "in the goal, ";
+  if (result_.obstacle == Obstacle::goal) return goal_words();
+  std::string words = result_.obstacle == Obstacle::start ? "at the start, " : "";
   const bool by_height = result_.y && (!result_.x || !scene_.goal.com_x);
   const bool flat = result_.y && number(result_.y->first) == number(result_.y->second);
   if (by_height) return words + interval_words("y", *result_.y) + ": ";
   if (!result_.x) return words.empty() ? "" : words.substr(0, words.size() - 2) + ": ";
   words += interval_words("x", *result_.x);
   const bool upright = number(result_.x->first) == number(result_.x->second);
-  if (result_.obstacle == Obstacle::goal && scene_.goal.com_y) words += ", " + interval_words("y", *scene_.goal.com_y);
-  else if (result_.y && !flat && upright) words += " and " + interval_words("y", *result_.y);
+  if (result_.y && !flat && upright) words += " and " + interval_words("y", *result_.y);
   return words + ": ";
 }
 

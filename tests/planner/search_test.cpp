@@ -220,9 +220,10 @@ TEST_CASE("that a goal cannot be stood on is proven", "[search]") {
     CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 8 and 9: "));
   }
   SECTION("too high: proven, and its height told beside its place") {
-    const auto plan = run(gaits::parse_scene(scene_text(level, three_feet, "{com_x: [1, 2], com_y: [5, 6]}"), "high"));
+    const std::string goal = "{com_x: [1, 2], com_y: [1000.1, 1000.2]}";
+    const auto plan = run(gaits::parse_scene(scene_text(level, three_feet, goal), "high"));
     CHECK(plan.status == gaits::Status::infeasible);
-    CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 1 and 2, between y = 5 and 6: "));
+    CHECK_THAT(plan.reason, Catch::StartsWith("in the goal, between x = 1 and 2 and between y = 1000.1 and 1000.2: "));
   }
   SECTION("ground too steep to stand on: proven") {
     const auto plan =

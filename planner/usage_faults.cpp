@@ -151,19 +151,22 @@ std::string equals_sign(const CLI::App& app, int count, char** words) {
 }
 
 std::string overflowing_argument(const CLI::App& app) {
-  const auto overflows = [](const CLI::Option& option, const std::string& given) {
-    if (option.get_type_name().size() != 1) return false;  // other types than numbers have longer names
+  const auto overflows = [](const std::string& given, bool whole) {
     char* end = nullptr;
     errno = 0;
-    if (option.get_type_name() == whole_number) std::strtoll(given.c_str(), &end, 10);
-    else if (!std::isinf(std::strtod(given.c_str(), &end))) errno = 0;  // too small is none
+    if (whole) std::strtoll(given.c_str(), &end, 0);
+    else if (const double cut = std::strtod(given.c_str(), &end); !std::isinf(cut) && cut != 0) errno = 0;
     return errno == ERANGE && *end == '\0';
   };
   for (const CLI::App* command : app.get_subcommands())
-    for (const CLI::Option* option : command->get_options())
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->get_type_name().size() != 1) continue;  // other types than numbers have longer names
+      const bool whole = option->get_type_name() == whole_number;
       for (const std::string& given : option->results())
-        if (overflows(*option, given))
-          return fmt::format("{}: found {}, which is out of range", option->get_name(), terrain::shown(given));
+        if (overflows(given, whole))
+          return fmt::format("{}: found {}, expected a {}", option->get_name(), terrain::shown(given),
+                             whole ? "whole number below 2^63" : "number such as 0.25 or 1e-3");
+    }
   return "";
 }
 

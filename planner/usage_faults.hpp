@@ -21,7 +21,7 @@ std::string equals_sign(const CLI::App& app, int count, char** words);
 /// An argument of the command that is empty, as an unset variable of a script leaves it; "" if there is none.
 std::string empty_argument(const CLI::App& app);
 
-/// A number that the parser has cut to the range of its type; "" if there is none.
+/// A number that the parser has cut to the range of its type, upwards or to 0; "" if there is none.
 std::string overflowing_argument(const CLI::App& app);
 
 }  // namespace surefoot::planner

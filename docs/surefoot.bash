@@ -5,6 +5,8 @@ _surefoot() {
   local program=$1 word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]-}
   local IFS=$'\n' help
   COMPREPLY=()
+  # A key pressed by chance builds nothing: of the launcher the program is asked that it has built.
+  [[ $program != */* || ! -e ${program%/*}/CMakePresets.json ]] || program=${program%/*}/build/release/bin/surefoot
   ((COMP_CWORD > 1)) || command=--help
   help=$("$program" "$command" --help 2>/dev/null)
   if [[ $word == -* ]]; then
@@ -37,11 +39,7 @@ _surefoot() {
     # Upper case behind the option: some other value, of which nothing is known here.
     [[ $entry =~ ^\ \ -[^\ ]*\ [A-Z] && ! $entry =~ Excludes:|\ SCENE\  ]] && return
   fi
-  if [[ $command == bench ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$("$program" bench --list 2>/dev/null | awk '{ print $1 }')" -- "$word")
-    return
-  fi
-  [[ $help == *$'\nPositionals:'* ]] || return
+  [[ $help == *$'\nPositionals:'* && $command != bench ]] || return
   compopt -o filenames 2>/dev/null
   mapfile -t COMPREPLY < <(compgen -f -- "$word")
   if [[ $help == *$'\n  SCENE '* || $entry == *" SCENE "* ]]; then

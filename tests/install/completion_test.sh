@@ -56,10 +56,23 @@ is "canned scenes and files" "$(offered plan stairs)" $'stairs_up\nstairs_down\n
 is "canned scenes and files behind --scene" "$(offered simulate --scene stairs)" $'stairs_up\nstairs_down\nstairs.txt'
 is "the plan of check" "$(offered check flat "a p")" "a plan.json"
 is "files behind --svg" "$(offered plan --svg st)" stairs.txt
-is "items of bench, where it is built" "$(offered bench "")" "$("$program" bench --list 2>/dev/null | awk '{ print $1 }')"
+is "no files behind bench" "$(offered bench "")" ""
 is "nothing behind maps" "$(offered maps "")" ""
 is "nothing behind --seed" "$(offered plan --seed "")" ""
 is "a file behind a flag" "$(offered plan -q stairs.)" stairs.txt
+
+# The launcher builds what is missing or older than its sources; completion must not make it do so.
+mkdir -p tree/build/release/bin
+printf '#!/bin/sh\ntouch "%s"\n' "$work/.called" >tree/surefoot
+chmod +x tree/surefoot
+touch tree/CMakePresets.json CMakePresets.json
+is "no command before anything is built" "$(program=$work/tree/surefoot offered "")" ""
+ln -s "$program" tree/build/release/bin/surefoot
+is "commands behind the launcher" "$(program=$work/tree/surefoot offered "")" "$commands"
+is "scenes behind the launcher" "$(program=tree/surefoot offered plan stairs_u)" stairs_up
+is "the launcher is not called" "$([[ -e $work/.called ]] && echo called)" ""
+is "commands of a program in PATH, in a folder of another project" \
+  "$(PATH=$(dirname "$program"):$PATH program=surefoot offered "")" "$commands"
 
 if command -v groff >/dev/null; then
   is "the manual is well-formed" "$(groff -man -ww -Tutf8 "$manual" 2>&1 >/dev/null)" ""

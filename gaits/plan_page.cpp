@@ -84,7 +84,7 @@ AlignedBox2d contents(const Scene& scene, const Plan& plan) {
     if (ground.min().y() > ground.max().y()) ground.setEmpty();
   }
   box.extend(ground);
-  if (plan.status == Status::solved) show_ceiling(box, scene, box.min().x(), box.max().x());
+  show_ceiling(box, scene, box.min().x(), box.max().x());
   return box;
 }
 
@@ -132,7 +132,7 @@ Page lay_out(const Scene& scene, const Plan& plan, double top) {
     if (row.stances.empty() || plan.status != Status::solved)
       box.extend(ground_between(scene, row.x_from - pad, row.x_to + pad));
     if (box.isEmpty()) box = all;
-    if (count > 1 && plan.status == Status::solved) show_ceiling(box, scene, row.x_from - pad, row.x_to + pad);
+    if (count > 1) show_ceiling(box, scene, row.x_from - pad, row.x_to + pad);
     const double half_width = free_width / page.scale / 2;
     const double middle = (row.x_from + row.x_to) / 2;
     row.window = AlignedBox2d(Vector2d(middle - half_width, box.min().y() - pad),

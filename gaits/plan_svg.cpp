@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "gaits/goal_name.hpp"
+#include "gaits/place_names.hpp"
 #include "gaits/plan_heading.hpp"
 #include "gaits/plan_io.hpp"
 #include "gaits/plan_page.hpp"
@@ -208,7 +208,8 @@ class PlanPicture {
     std::optional<Vector2d> at = scene_.start.com;
     if (!plan_.stances.empty()) at = plan_.stances.front().com;
     if (!at || &page_.rows[page_.row_of(at->x())] != &row) return;
-    canvas_.text(row.view(*at) - Vector2d(0, start_above), "start", {.anchor = "middle", .bold = true, .halo = true});
+    canvas_.text(start_name_place(plan_, row, row.view(*at)), "start",
+                 {.anchor = "middle", .bold = true, .halo = true});
   }
 
   void axis(const PageRow& row) {

@@ -36,20 +36,42 @@ double signed_area(const Polyline& polygon) {
   return twice / 2;
 }
 
-/// The solid lies to the right of a chain. A chain that nearly closes on itself bounds it alone; any other is taken to
-/// go on for ever in the direction to the right of its course, which is down for ground, up for a ceiling.
+/// Everything outside a closed chain, as far as can be seen: a rectangle, and from a corner of it along the chain.
+Polyline outside_of(const Polyline& closed, double far) {
+  const Eigen::Vector2d& p = closed.front();
+  Polyline solid = closed;
+  for (const auto& [x, y] : {std::pair(-1, -1), {-1, 1}, {1, 1}, {1, -1}, {-1, -1}})
+    solid.emplace_back(p + far * Eigen::Vector2d(x, y));
+  return solid;
+}
+
+/// The solid lies to the right of a chain. A closed chain bounds it alone, and so does one that nearly closes about it.
+/// Any other is taken to go on for ever in the direction to the right of its course, which is down for ground, up for a
+/// ceiling; if both its ends are walls that face each other, the solid behind these goes on, too.
 Polyline solid_of(const Polyline& chain, double far) {
   const Eigen::Vector2d course = chain.back() - chain.front();
+  const bool walks = chain.size() > 2;
   double length = 0;
   for (std::size_t i = 1; i < chain.size(); ++i) length += (chain[i] - chain[i - 1]).norm();
-  constexpr double nearly_closed = 0.1;  // share of the length
-  if (chain.size() > 2 && course.norm() < nearly_closed * length) return signed_area(chain) < 0 ? chain : Polyline();
+  if (walks && course.isZero(0)) return signed_area(chain) < 0 ? chain : outside_of(chain, far);
   const Eigen::Vector2d away = std::abs(course.x()) >= 0.5 * std::abs(course.y())
-                                   ? Eigen::Vector2d(0, course.x() > 0 ? -far : far)
-                                   : Eigen::Vector2d(course.y() > 0 ? far : -far, 0);
+                                   ? Eigen::Vector2d(0, course.x() > 0 ? -1 : 1)
+                                   : Eigen::Vector2d(course.y() > 0 ? 1 : -1, 0);
+  const Eigen::Vector2d onward(-away.y(), away.x());
+  constexpr double steep = 0.8;  // sine of the angle between the course and a wall
+  const auto rise = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    return -away.dot((to - from).normalized());
+  };
   Polyline solid = chain;
-  solid.push_back(chain.back() + away);
-  solid.push_back(chain.front() + away);
+  if (walks && rise(chain[0], chain[1]) < -steep && rise(chain[chain.size() - 2], chain.back()) > steep) {
+    for (const auto& [along, down] : {std::pair(1, 0), {1, 1}, {-1, 1}, {-1, 0}})
+      solid.emplace_back((along > 0 ? chain.back() : chain.front()) + far * (along * onward + down * away));
+    return solid;
+  }
+  constexpr double nearly_closed = 0.1;  // share of the length
+  if (walks && course.norm() < nearly_closed * length) return signed_area(chain) < 0 ? chain : Polyline();
+  solid.push_back(chain.back() + far * away);
+  solid.push_back(chain.front() + far * away);
   return solid;
 }
 

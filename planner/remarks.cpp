@@ -89,23 +89,40 @@ std::vector<Eigen::AlignedBox2d> start_boxes(const gaits::Scene& scene) {
   return boxes;
 }
 
-/// Where start and goal lie, unbounded where the goal is.
-std::vector<Eigen::AlignedBox2d> inhabited(const gaits::Scene& scene) {
-  std::vector<Eigen::AlignedBox2d> boxes = start_boxes(scene);
+/// Unbounded where the goal is.
+Eigen::AlignedBox2d goal_box(const gaits::Scene& scene) {
   constexpr double far = terrain::greatest_coordinate;
   const auto [left, right] = scene.goal.com_x.value_or(std::pair(-far, far));
   const auto [low, high] = scene.goal.com_y.value_or(std::pair(-far, far));
-  boxes.emplace_back(terrain::Point(left, low), terrain::Point(right, high));
-  return boxes;
+  return {terrain::Point(left, low), terrain::Point(right, high)};
 }
 
 std::string inside_out_remark(const gaits::Scene& scene) {
-  const auto chain = terrain::obstacle_inside_out(scene.terrain, inhabited(scene), too_low(scene.robot));
+  const auto chain =
+      terrain::obstacle_inside_out(scene.terrain, start_boxes(scene), goal_box(scene), too_low(scene.robot));
   if (!chain) return "";
   return fmt::format(
-      "the free side of chain {} is its inside, where neither start nor goal lies: is it an obstacle given the "
-      "wrong way round? {}",
+      "the free side of chain {} is its inside, where the start does not lie: is it an obstacle given the wrong way "
+      "round? {}",
       *chain, sides);
+}
+
+/// A foot so far from the others that no COM reaches it and one of them.
+std::string far_foot_remark(const gaits::Scene& scene) {
+  const double span = 2 * scene.robot.reach_max;
+  const auto& feet = scene.start.feet;
+  for (std::size_t leg = 0; leg < feet.size(); ++leg) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t other = 0; other < feet.size(); ++other)
+      if (feet[leg] && feet[other] && other != leg)
+        nearest = std::min(nearest, (feet[leg]->position - feet[other]->position).norm());
+    if (std::isfinite(nearest) && nearest > span)
+      return fmt::format(
+          "start foot {} at ({:.6g}, {:.6g}) is {:.6g} m from the nearest other one, and the greatest reach is {:.6g} "
+          "m: no COM reaches both, is its place meant so?",
+          leg + 1, feet[leg]->position.x(), feet[leg]->position.y(), nearest, scene.robot.reach_max);
+  }
+  return "";
 }
 
 std::string upside_down_remark(const gaits::Scene& scene) {
@@ -137,10 +154,11 @@ std::string scene_remark(const gaits::Scene& scene) {
   if (scene.robot.reach_max > giant)
     return fmt::format("the greatest reach is {:.6g} m: are all lengths, nu among them, in metres?",
                        scene.robot.reach_max);
+  if (std::string far_foot = far_foot_remark(scene); !far_foot.empty()) return far_foot;
+  if (std::string inside_out = inside_out_remark(scene); !inside_out.empty()) return inside_out;
   const double within = 2 * scene.robot.reach_max;
   if (const auto seen = terrain::back_face_seen(scene.terrain, within, start_boxes(scene), too_low(scene.robot)))
     return back_face_words(*seen);
-  if (std::string inside_out = inside_out_remark(scene); !inside_out.empty()) return inside_out;
   if (std::string upside_down = upside_down_remark(scene); !upside_down.empty()) return upside_down;
   return goal_remark(scene);
 }
@@ -155,10 +173,12 @@ std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& pl
   if (const auto chain = under ? terrain::solid_around(scene.terrain, Eigen::AlignedBox2d(com)) : std::nullopt)
     return fmt::format("the COM of stance {} lies behind chain {}, in what pictures show as solid ground",
                        seen->index + 1, *chain);
+  // Of a chain that is the wrong way round the scene's remark has spoken.
   return fmt::format(
       "the COM of stance {} looks at the back of chain {} at ({:.6g}, {:.6g}), so it is in what pictures show as "
-      "solid: chains are lines without thickness, give a ceiling its sides",
-      seen->index + 1, seen->chain, seen->at.x(), seen->at.y());
+      "solid{}",
+      seen->index + 1, seen->chain, seen->at.x(), seen->at.y(),
+      scene_remark(scene).empty() ? ": chains are lines without thickness, give a ceiling its sides" : "");
 }
 
 }  // namespace surefoot::planner

@@ -151,14 +151,14 @@ std::optional<int> ground_upside_down(const Terrain& terrain, double near, doubl
   return std::nullopt;
 }
 
-std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> inhabited,
-                                       double room) {
+std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> start,
+                                       const Eigen::AlignedBox2d& goal, double room) {
   const auto chains = shapes_of_chains(terrain);
   std::size_t rays = rays_of(terrain, 2 * chains.size());
   for (std::size_t chain = 0; chain < chains.size(); ++chain) {
     const ChainShape& shape = chains[chain];
     if (!(shape.twice_area > 0)) continue;  // free space is outside
-    if (is_inhabited(shape, inhabited)) continue;
+    if (is_inhabited(shape, start) || (!shape.is_closed() && is_inhabited(shape, {&goal, 1}))) continue;
     if (shape.is_closed()) return static_cast<int>(chain);
     if (shape.first->a.x() <= shape.last->b.x()) continue;  // ground with a hollow
     if (rays < 2) return std::nullopt;

@@ -26,11 +26,12 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
 /// The first met by rays of that length straight up and down from the points; of many points an even choice is asked.
 std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within);
 
-/// The first chain whose free side is its inside, though none of the `inhabited` boxes meets its extent (or lies below
-/// it, where it is open): most likely an obstacle given the wrong way round. It is closed, or runs from right to left
-/// and both its ends are at most `room` [m] above other ground. Nothing where there are too many chains to ask.
-std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> inhabited,
-                                       double room);
+/// The first chain whose free side is its inside, though neither the boxes of the start nor, where it is open, that of
+/// the goal meets its extent (or lies below it, where it is open): most likely an obstacle given the wrong way round.
+/// It is closed (nobody comes in who has not begun there), or runs from right to left and both its ends are at most
+/// `room` [m] above other ground. Nothing where there are too many chains to ask.
+std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> start,
+                                       const Eigen::AlignedBox2d& goal, double room);
 
 /// Whether a rectangle of finite extent lies in solid ground: no segment meets it, and straight up, down, left and
 /// right of it nothing but backs is seen, one above or below at least. The chain of that one.

@@ -72,6 +72,11 @@ TEST_CASE("Obstacles given the wrong way round and goals in solid ground are rem
   };
   const std::string box = "[[1.4, .01], [1.4, .3], [1, .3], [1, .01]]";
   CHECK_THAT(told(with_chain(box)), Catch::Contains("remark: the free side of chain 1 is its inside"));
+  // Closed, where the goal lies above it for all that is said.
+  const std::string closed = "[[1.4, .7], [1.8, .7], [1.8, 1], [1.4, 1], [1.4, .7]]";
+  CHECK_THAT(told(with_chain(closed,
+                             with("{x: -0.3}, {x: 0.25}, {x: 0}", "{chain: 0, s: 0.7}, {chain: 0, s: 1.25}, null"))),
+             Catch::Contains("remark: the free side of chain 1 is its inside, where the start does not lie"));
   // A tunnel that somebody walks in.
   CHECK_THAT(told(with_chain("[[3.5, .01], [3.5, 1.6], [-.8, 1.6], [-.8, .01]]",
                              with("{x: -0.3}, {x: 0.25}, {x: 0}", "{chain: 0, s: 0.7}, {chain: 0, s: 1.25}, null"))),
@@ -88,6 +93,19 @@ TEST_CASE("Obstacles given the wrong way round and goals in solid ground are rem
   CHECK_THAT(told(with_height("[-100, 0.6]")), Catch::Contains("valid") && !Catch::Contains("remark"));
 }
 
+TEST_CASE("A start foot that no COM reaches together with another is remarked on", "[validate]") {
+  const Workplace place;
+  const std::string wide = with("[[-1, 0], [4, 0]]", "[[-1, 0], [40, 0]]");
+  for (const auto& [x, far] : {std::pair("2.04", false), {"2.06", true}}) {  // reach 0.9, the nearest foot at 0.25
+    place.write("s.yaml", with("{x: 0}", std::string("{x: ") + x + "}", wide));
+    const auto run = place.run("validate s.yaml");
+    CHECK(run.status == 0);
+    CHECK((run.out.find("remark: start foot 3 at (2.06, 0) is 1.81 m from the nearest other one") !=
+           std::string::npos) == far);
+    CHECK((run.out.find("remark") != std::string::npos) == far);
+  }
+}
+
 TEST_CASE("A plan over a ceiling without sides is remarked on, plans of canned scenes are not", "[validate]") {
   const Workplace place;
   // A plate 0.25 m over a gap, too low to go under it.
@@ -96,7 +114,8 @@ TEST_CASE("A plan over a ceiling without sides is remarked on, plans of canned s
                                  "    - vertices: [[1.3, 0.25], [0.9, 0.25]]\n      segments: {0: {foothold: false}}"));
   const auto run = place.run("plan plate.yaml --effort 0 -o plan.json");
   REQUIRE(run.status == 0);
-  CHECK_THAT(run.err, Catch::Contains("looks at the back of chain 1 at ("));
+  CHECK_THAT(run.err,
+             Catch::Contains("looks at the back of chain 1 at (") && Catch::Contains("give a ceiling its sides\n"));
   CHECK_THAT(place.run("check plate.yaml plan.json").err, Catch::Contains("looks at the back of chain 1 at ("));
   for (const std::string name : {"chimney", "vee", "stairs_up", "ridge"})
     CHECK_THAT(place

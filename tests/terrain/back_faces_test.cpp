@@ -97,8 +97,8 @@ TEST_CASE("Obstacles given the wrong way round are told from ceilings and from r
   using Box = Eigen::AlignedBox2d;
   const Chain floor = chain({{-1, 0}, {6, 0}});
   const Box start(Point(0, 0)), goal(Point(5, -10), Point(5.4, 10));
-  const auto told = [&](std::vector<Point> vertices, std::vector<Box> inhabited) {
-    return obstacle_inside_out(Terrain({floor, chain(std::move(vertices))}), inhabited, 0.2);
+  const auto told = [&](std::vector<Point> vertices, const Box& from, const Box& to) {
+    return obstacle_inside_out(Terrain({floor, chain(std::move(vertices))}), {&from, 1}, to, 0.2);
   };
   const std::vector<std::vector<Point>> obstacles{
       {{1, 0.1}, {1, 0.3}, {1.4, 0.3}, {1.4, 0.1}},            // a box, as it should be
@@ -111,21 +111,22 @@ TEST_CASE("Obstacles given the wrong way round are told from ceilings and from r
   for (const std::vector<Point>& vertices : obstacles) {
     INFO(vertices.size() << " vertices from " << vertices.front().transpose() << " by " << vertices[1].transpose());
     const std::vector<Point> reversed(vertices.rbegin(), vertices.rend());
-    CHECK_FALSE(told(vertices, {start, goal}));
-    CHECK(told(reversed, {start, goal}) == 1);
-    CHECK_FALSE(told(reversed, {start, Box(Point(1.2, 0.1), Point(5, 5))}));  // a room with the goal in it
-    CHECK_FALSE(told(reversed, {Box(Point(1.2, vertices[1].y())), goal}));    // or the start
+    CHECK_FALSE(told(vertices, start, goal));
+    CHECK(told(reversed, start, goal) == 1);
+    // A room with the goal in it, which nobody can enter if it is closed; a room with the start in it.
+    const bool is_closed = vertices.front() == vertices.back();
+    CHECK(told(reversed, start, Box(Point(1.2, 0.1), Point(5, 5))).has_value() == is_closed);
+    CHECK_FALSE(told(reversed, Box(Point(1.2, vertices[1].y())), goal));
   }
-  const std::vector<Box> both{start, goal};
   // A vault over a trench that both are in.
   const Chain trench = chain({{-4, 0}, {-1.5, 0}, {-1.5, -1}, {7.5, -1}, {7.5, 0}, {10, 0}});
   const Terrain vaulted({trench, chain({{8, 0.1}, {8, 2}, {-2, 2}, {-2, 0.1}})});
-  CHECK_FALSE(
-      obstacle_inside_out(vaulted, std::vector<Box>{Box(Point(0, -1)), Box(Point(5, -0.7), Point(6, -0.3))}, 0.2));
-  CHECK_FALSE(told({{3, 2}, {3, 1}, {1, 1}, {1, 2}}, both));              // a ceiling with its sides
-  CHECK_FALSE(told({{3, 1}, {1, 1}}, both));                              // without
-  CHECK_FALSE(told({{1.4, 0.3}, {1.4, 0.5}, {1, 0.5}, {1, 0.3}}, both));  // ends too high over the floor
-  CHECK_FALSE(told({{1, 0.15}, {1.2, 0.1}, {1.4, 0.15}}, both));          // ground with a hollow over the floor
+  const Box below(Point(0, -1));
+  CHECK_FALSE(obstacle_inside_out(vaulted, {&below, 1}, Box(Point(5, -0.7), Point(6, -0.3)), 0.2));
+  CHECK_FALSE(told({{3, 2}, {3, 1}, {1, 1}, {1, 2}}, start, goal));              // a ceiling with its sides
+  CHECK_FALSE(told({{3, 1}, {1, 1}}, start, goal));                              // without
+  CHECK_FALSE(told({{1.4, 0.3}, {1.4, 0.5}, {1, 0.5}, {1, 0.3}}, start, goal));  // ends too high over the floor
+  CHECK_FALSE(told({{1, 0.15}, {1.2, 0.1}, {1.4, 0.15}}, start, goal));          // ground with a hollow over the floor
 }
 
 TEST_CASE("An area is in solid ground if it has no ground in it and nothing but backs around", "[back_faces]") {

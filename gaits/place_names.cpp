@@ -1,6 +1,7 @@
-#include "gaits/goal_name.hpp"
+#include "gaits/place_names.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
-constexpr double name_width = 30;  // [px]
+constexpr double name_width = 30;  // [px] of either
 
 /// What letters cover [px] that stand on the middle of a line at `at`.
 AlignedBox2d letters(const Vector2d& at, double width) {
@@ -20,20 +21,23 @@ AlignedBox2d letters(const Vector2d& at, double width) {
   return {at - Vector2d(width / 2, height), at + Vector2d(width / 2, 0)};
 }
 
-/// The waypoints of a row and their labels [px].
+/// The waypoints of a row and their numbers [px].
 std::vector<AlignedBox2d> waypoint_boxes(const Plan& plan, const PageRow& row) {
-  constexpr double number_width = 18, start_width = 30;
+  constexpr double number_width = 18;
   std::vector<AlignedBox2d> boxes;
   for (const int k : row.stances) {
     const Vector2d at = row.view(plan.stances[k].com);
     boxes.emplace_back(at.array() - ring_radius, at.array() + ring_radius);
     boxes.push_back(letters(at - Vector2d(0, number_above), number_width));
-    if (k == 0) boxes.push_back(letters(at - Vector2d(0, start_above), start_width));
   }
   return boxes;
 }
 
-/// Lines [px] on which the name may stand, the best first.
+bool is_free(const AlignedBox2d& name, const std::vector<AlignedBox2d>& taken) {
+  return std::none_of(taken.begin(), taken.end(), [&](const auto& box) { return box.intersects(name); });
+}
+
+/// Lines [px] on which the name of the goal may stand, the best first.
 std::vector<Vector2d> lines_of(const PageRow& row, const AlignedBox2d& goal) {
   constexpr double line = 18, beneath_edge = 15, above_edge = 4;
   constexpr int most = 50;
@@ -65,18 +69,30 @@ bool in_solid_ground(const terrain::Terrain& terrain, const PageRow& row, const 
 
 }  // namespace
 
+Vector2d start_name_place(const Plan& plan, const PageRow& row, const Vector2d& com) {
+  const std::vector<AlignedBox2d> taken = waypoint_boxes(plan, row);
+  const double aside = ring_radius + name_width / 2 + 2;
+  const std::array<Vector2d, 4> lines{com - Vector2d(0, start_above), com + Vector2d(0, start_above - 2),
+                                      com + Vector2d(-aside, 4), com + Vector2d(aside, 4)};
+  const auto* const best =
+      std::find_if(lines.begin(), lines.end(), [&](const auto& at) { return is_free(letters(at, name_width), taken); });
+  return best == lines.end() ? lines.front() : *best;
+}
+
 Vector2d goal_name_place(const Scene& scene, const Plan& plan, const PageRow& row, const AlignedBox2d& goal) {
   constexpr std::size_t many = 100'000;  // segments, of which each line asks all
   const std::vector<Vector2d> lines = lines_of(row, goal);
   if (scene.terrain.segments().size() > many) return lines.front();
-  const std::vector<AlignedBox2d> taken = waypoint_boxes(plan, row);
+  std::vector<AlignedBox2d> taken = waypoint_boxes(plan, row);
+  if (!row.stances.empty() && row.stances.front() == 0)
+    taken.push_back(letters(start_name_place(plan, row, row.view(plan.stances.front().com)), name_width));
   const AlignedBox2d page(row.view({row.window.min().x(), row.window.max().y()}),
                           row.view({row.window.max().x(), row.window.min().y()}));
   std::optional<Vector2d> second_best;
   for (const Vector2d& at : lines) {
     const AlignedBox2d name = letters(at, name_width);
     if (!page.contains(name) || in_solid_ground(scene.terrain, row, name)) continue;
-    if (std::none_of(taken.begin(), taken.end(), [&](const auto& box) { return box.intersects(name); })) return at;
+    if (is_free(name, taken)) return at;
     if (!second_best) second_best = at;
   }
   return second_best.value_or(lines.front());

@@ -1,0 +1,67 @@
+// Which side of the terrain pictures show as solid, and how much of it.
+#include "gaits/terrain_picture.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "fixtures.hpp"
+#include "gaits/plan_page.hpp"
+
+namespace {
+
+using namespace surefoot::gaits;
+using Eigen::Vector2d;
+using surefoot::gaits::testing::chain;
+using surefoot::gaits::testing::scene_on;
+
+/// Whether a ray to the right of the point crosses the borders of an odd number of times.
+bool is_filled(const std::vector<Polyline>& ground, const Vector2d& p) {
+  for (const Polyline& polygon : ground) {
+    int crossings = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      crossings += a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > p.x();
+    }
+    if (crossings % 2 == 1) return true;
+  }
+  return false;
+}
+
+struct Case {
+  std::vector<std::vector<Vector2d>> chains;
+  std::vector<Vector2d> solid, free;
+};
+
+}  // namespace
+
+TEST_CASE("pictures fill what is solid", "[plan_svg]") {
+  const std::vector<Case> cases{
+      {{{{0, 4}, {0, 0}, {1, 0}, {1, 4}}}, {{-0.5, 2}, {1.5, 2}, {0.5, -0.5}}, {{0.5, 2}}},  // a chimney in one piece
+      {{{{1, -4}, {1, 0}, {0, 0}, {0, -4}}}, {{-0.5, -2}, {1.5, -2}, {0.5, 0.5}}, {{0.5, -2}}},  // a shaft from below
+      {{{{0, 1}, {0, 0}, {5, 0}, {5, 3}}}, {{-0.5, 0.5}, {5.5, 2}, {2, -0.5}}, {{2, 0.5}}},      // unequal walls
+      {{{{-2, 0}, {4, 0}, {4, 1.5}, {-2, 1.5}, {-2, 0}}}, {{1, -0.5}, {1, 2}, {4.5, 1}, {-2.5, 1}}, {{1, 1}}},  // room
+      {{{{-2, 0}, {-2, 1.5}, {4, 1.5}, {4, 0}, {-2, 0}}}, {{1, 1}}, {{1, -0.5}, {1, 2}, {4.5, 1}, {-2.5, 1}}},  // block
+      {{{{-2, 0}, {4, 0}}, {{4, 1}, {-2, 1}}}, {{1, -0.5}, {1, 1.5}}, {{1, 0.5}}},  // a tunnel
+      {{{{-2, 0}, {4, 0}, {4, 1.5}, {-2, 1.5}, {-2, 0}}, {{1, 1}, {2, 1}, {2, 0.5}, {1, 0.5}, {1, 1}}},
+       {{1, -0.5}, {1.5, 0.7}},
+       {{0.5, 0.5}}},  // a block in a room
+      {{{{-1, 0}, {6, 0}}, {{1, 0.5}, {2, 0.5}, {2, 1}, {1, 1}, {1, 0.5}}}, {{1, -0.5}}, {{1, 0.2}}},  // inside out
+  };
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    CAPTURE(k);
+    std::vector<surefoot::terrain::Chain> chains;
+    for (const auto& vertices : cases[k].chains) chains.push_back(chain(vertices));
+    const Scene scene = scene_on(chains);
+    const auto ground = TerrainPicture(scene.terrain).ground_in(Eigen::AlignedBox2d(Vector2d(-3, -3), Vector2d(7, 5)));
+    for (const Vector2d& p : cases[k].solid) CHECK(is_filled(ground, p));
+    for (const Vector2d& p : cases[k].free) CHECK_FALSE(is_filled(ground, p));
+  }
+}
+
+TEST_CASE("the ceiling of a tunnel is in the picture, with a plan and without", "[plan_svg]") {
+  const Scene scene = scene_on({chain({{-9, 0}, {9, 0}}), chain({{9, 0.8}, {-9, 0.8}})});  // reach 0.9
+  Plan plan;
+  CHECK(contents(scene, plan).max().y() == Approx(0.8));
+  plan.status = Status::solved;
+  CHECK(contents(scene, plan).max().y() == Approx(0.8));
+}

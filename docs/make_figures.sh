@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Draws every figure of docs/regions.md and docs/frictional.md and writes the tables of their numbers. Run from anywhere:
+# Draws the figures of docs/regions.md and docs/frictional.md and writes the tables of their numbers; the map of pushed
+# rods alone is drawn by a benchmark (bench/README.md). Run from anywhere:
 #   docs/make_figures.sh [PROGRAM]        default: build/release/bin/surefoot, else ./surefoot
 set -euo pipefail
 
@@ -53,3 +54,6 @@ for posture in "$figures"/frictional/*.json; do
     ' >> "$frictional"
 done
 cat "$frictional"
+
+"$program" simulate "$root/docs/examples/pushed_vee.json" --heights 2e-3,5e-3,0.003 --heights-rate 0.02,-0.01,0.05 \
+  --svg "$figures/pushed_vee.svg" >/dev/null

@@ -8,6 +8,7 @@
 #   ```python                                                  runs, where python3 is there
 #   ```cpp of the README, ```cmake of library.md               are left to tests/install/outside_test.sh; others are refused
 #   cmake commands that configure, those of the tests too      use Ninja: make is in no package list
+#   figures                                                    are those that docs/make_figures.sh draws
 #   the rows of papers.md                                      name functions and tests that are there
 # Usage: docs_test.sh SOURCE_DIR PROGRAM
 set -uo pipefail
@@ -115,6 +116,12 @@ while IFS='|' read -r _ statement function file test test_file _; do
   rows=$((rows + 1))
 done < <(grep '^| .*`' "$source/docs/papers.md")
 ((rows >= 20)) || fail "the rows of papers.md were not found"
+
+# The figures and their tables are what the program draws and prints.
+rm -f docs/figures/*.svg docs/figures/{,frictional/}areas.md
+cp "$source/docs/figures/clattering_map.svg" docs/figures # a benchmark's
+bash docs/make_figures.sh "$program" >"$work/figures.log" 2>&1 || fail "docs/make_figures.sh: $(tail -1 "$work/figures.log")"
+diff -rq docs/figures "$source/docs/figures" || fail "figures are not those of docs/make_figures.sh"
 
 echo "$ran commands of the documents ran"
 ((ran >= 10)) || fail "the documents' commands were not found"

@@ -54,17 +54,20 @@ std::vector<Vector2d> lines_of(const PageRow& row, const AlignedBox2d& goal) {
   return lines;
 }
 
-/// Whether a name would stand in solid ground, in part at least.
-bool in_solid_ground(const terrain::Terrain& terrain, const PageRow& row, const AlignedBox2d& name) {
+enum class Ground { none, crosses, covers };
+
+/// Whether a name would stand in solid ground, in part at least, or a surface run through it.
+Ground ground_at(const terrain::Terrain& terrain, const PageRow& row, const AlignedBox2d& name) {
   const Vector2d corner = row.view({row.window.min().x(), row.window.max().y()});
   const Vector2d opposite = row.view({row.window.max().x(), row.window.min().y()});
   const Vector2d scale = (opposite - corner).cwiseQuotient(row.window.sizes());  // [px/m]
   const double y = row.window.max().y() - (name.center().y() - corner.y()) / scale.y();
-  for (const double px : {name.min().x(), name.center().x(), name.max().x()}) {
-    const Vector2d at(row.window.min().x() + (px - corner.x()) / scale.x(), y);
-    if (terrain::solid_around(terrain, AlignedBox2d(at))) return true;
-  }
-  return false;
+  const auto metres = [&](double px) { return Vector2d(row.window.min().x() + (px - corner.x()) / scale.x(), y); };
+  for (const double px : {name.min().x(), name.center().x(), name.max().x()})
+    if (terrain::solid_around(terrain, AlignedBox2d(metres(px)))) return Ground::covers;
+  constexpr double hatch = 8;  // [px] that may be drawn beside the surface
+  const double near = (name.sizes().y() / 2 + hatch) / scale.y();
+  return terrain.distance(metres(name.min().x()), metres(name.max().x()), near) < near ? Ground::crosses : Ground::none;
 }
 
 }  // namespace
@@ -91,8 +94,9 @@ Vector2d goal_name_place(const Scene& scene, const Plan& plan, const PageRow& ro
   std::optional<Vector2d> second_best;
   for (const Vector2d& at : lines) {
     const AlignedBox2d name = letters(at, name_width);
-    if (!page.contains(name) || in_solid_ground(scene.terrain, row, name)) continue;
-    if (is_free(name, taken)) return at;
+    const Ground ground = page.contains(name) ? ground_at(scene.terrain, row, name) : Ground::covers;
+    if (ground == Ground::covers) continue;
+    if (ground == Ground::none && is_free(name, taken)) return at;
     if (!second_best) second_best = at;
   }
   return second_best.value_or(lines.front());

@@ -43,7 +43,7 @@ void title_and_scale(SvgCanvas& canvas, const Page& page, const std::string& tit
 }
 
 /// Entries flow over at most two lines; widths are estimates, the font is the viewer's.
-void legend(SvgCanvas& canvas, const Page& page, const Plan& plan, const WeakestPlace& weakest,
+void legend(SvgCanvas& canvas, const Page& page, const Plan& plan, bool refused, const WeakestPlace& weakest,
             const TerrainPicture& terrain) {
   double x = 30, y = 82;
   const auto entry = [&](const std::string& words, auto&& symbol) {
@@ -62,7 +62,8 @@ void legend(SvgCanvas& canvas, const Page& page, const Plan& plan, const Weakest
       canvas.circle(at + middle, dot_radius, com_dot);
     });
   if (weakest.bounded())
-    entry("least safety factor", [&](const Vector2d& at) { canvas.line(at, at + across, weak_line); });
+    entry(refused ? "least safety factor stated" : "least safety factor",
+          [&](const Vector2d& at) { canvas.line(at, at + across, weak_line); });
   const auto box = [&](const Vector2d& at, const Paint& paint) {
     canvas.rectangle(at - Vector2d(0, 6), 22, 12, paint);
   };
@@ -93,7 +94,7 @@ void draw_badge(SvgCanvas& canvas, const Vector2d& at, int leg) {
 void draw_heading(SvgCanvas& canvas, const Page& page, const std::string& title, const Plan& plan,
                   const std::vector<std::string>& faults, const WeakestPlace& weakest, const TerrainPicture& terrain) {
   title_and_scale(canvas, page, title, plan, faults, weakest);
-  legend(canvas, page, plan, weakest, terrain);
+  legend(canvas, page, plan, !faults.empty(), weakest, terrain);
 }
 
 }  // namespace surefoot::gaits

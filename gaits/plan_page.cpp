@@ -40,9 +40,9 @@ AlignedBox2d ground_between(const Scene& scene, double x_from, double x_to) {
   return box;
 }
 
-/// Raises the box to the lowest ceiling above it that is within reach of its top.
-void show_ceiling(AlignedBox2d& box, const Scene& scene, double x_from, double x_to) {
-  double lowest = box.max().y() + scene.robot.reach_max;
+/// Raises the box to the lowest ceiling above it that the COMs in it may reach; without any, the feet's COMs.
+void show_ceiling(AlignedBox2d& box, const Scene& scene, const Plan& plan, double x_from, double x_to) {
+  double lowest = box.max().y() + (plan.stances.empty() ? 2 : 1) * scene.robot.reach_max;
   bool found = false;
   for (const auto& segment : scene.terrain.segments()) {
     const double first = std::min(segment.a.x(), segment.b.x()), last = std::max(segment.a.x(), segment.b.x());
@@ -84,7 +84,7 @@ AlignedBox2d contents(const Scene& scene, const Plan& plan) {
     if (ground.min().y() > ground.max().y()) ground.setEmpty();
   }
   box.extend(ground);
-  show_ceiling(box, scene, box.min().x(), box.max().x());
+  show_ceiling(box, scene, plan, box.min().x(), box.max().x());
   return box;
 }
 
@@ -132,7 +132,7 @@ Page lay_out(const Scene& scene, const Plan& plan, double top) {
     if (row.stances.empty() || plan.status != Status::solved)
       box.extend(ground_between(scene, row.x_from - pad, row.x_to + pad));
     if (box.isEmpty()) box = all;
-    if (count > 1) show_ceiling(box, scene, row.x_from - pad, row.x_to + pad);
+    if (count > 1) show_ceiling(box, scene, plan, row.x_from - pad, row.x_to + pad);
     const double half_width = free_width / page.scale / 2;
     const double middle = (row.x_from + row.x_to) / 2;
     row.window = AlignedBox2d(Vector2d(middle - half_width, box.min().y() - pad),

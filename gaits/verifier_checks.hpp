@@ -42,7 +42,8 @@ class Checks {
   }
 
   /// The foot at (chain, s); also compares the segment with what is stated. Nothing where no foot can be, or where the
-  /// position stated is another one: a lost foot. `stated` is referred to until tell_lost_feet and tell_renumbered_feet.
+  /// position stated is another one: a lost foot. `stated` is referred to until tell_lost_feet and
+  /// tell_renumbered_feet.
   std::optional<Foot> rebuild(const std::string& place, int leg, const terrain::Foothold& stated);
   /// Notes all feet lost so far, and what has come between them and the ground where that can be told.
   void tell_lost_feet();

@@ -203,7 +203,7 @@ function fillIn() {
   set("about", plan.reason || `Disturbances: sideways up to ${kappa} of the weight, torques up to the weight times ` +
     `${nu} m. A safety factor of 2 withstands twice these.`);
   element("weakest").hidden = !data.weakest;
-  if (data.weakest) set("weakest", `Weakest: ${data.weakest.factor} in ${data.weakest.place}`);
+  if (data.weakest) set("weakest", `Weakest${data.faults.length ? " as stated" : ""}: ${data.weakest.factor} in ${data.weakest.place}`);
   element("time").max = steps;
   for (const {grip, words} of data.terrain.legend) {
     const item = document.createElement("li"), swatch = document.createElement("i");

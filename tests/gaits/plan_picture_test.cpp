@@ -231,6 +231,15 @@ TEST_CASE("a short journey fits one row, a long one is broken into rows", "[plan
   REQUIRE(tree.get<double>("svg.<xmlattr>.width") <= 1200);
 }
 
+TEST_CASE("the least factor of a plan that is refused is called stated", "[plan_svg]") {
+  const Scene scene = scene_on(level_ground_and());
+  const Plan plan = plan_by_hand(scene);
+  CHECK(to_svg(scene, plan).find(">least safety factor<") != std::string::npos);
+  const std::string refused = to_svg(scene, plan, {"stance 1: not stable"});
+  CHECK(refused.find(">least safety factor<") == std::string::npos);
+  CHECK(refused.find(">least safety factor stated<") != std::string::npos);
+}
+
 TEST_CASE("a name with reserved characters is escaped", "[plan_svg]") {
   const Scene scene = scene_on(level_ground_and());
   Plan plan = plan_by_hand(scene);

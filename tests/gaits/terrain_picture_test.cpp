@@ -59,9 +59,20 @@ TEST_CASE("pictures fill what is solid", "[plan_svg]") {
 }
 
 TEST_CASE("the ceiling of a tunnel is in the picture, with a plan and without", "[plan_svg]") {
-  const Scene scene = scene_on({chain({{-9, 0}, {9, 0}}), chain({{9, 0.8}, {-9, 0.8}})});  // reach 0.9
-  Plan plan;
-  CHECK(contents(scene, plan).max().y() == Approx(0.8));
-  plan.status = Status::solved;
-  CHECK(contents(scene, plan).max().y() == Approx(0.8));
+  const auto top = [](double ceiling, bool with_plan) {
+    const Scene scene = scene_on({chain({{-9, 0}, {9, 0}}), chain({{9, ceiling}, {-9, ceiling}})});  // reach 0.9
+    Plan plan;
+    if (with_plan) {
+      plan.status = Status::solved;
+      plan.stances = {Stance{scene.start.feet, {0, 0.5}, 2, ""}};
+    }
+    return contents(scene, plan).max().y();
+  };
+  for (const double ceiling : {0.8, 1.3}) {
+    CHECK(top(ceiling, true) == Approx(ceiling));
+    CHECK(top(ceiling, false) == Approx(ceiling));
+  }
+  CHECK(top(1.5, true) == Approx(0.5));
+  CHECK(top(1.7, false) == Approx(1.7));  // of a COM 0.9 m above the feet
+  CHECK(top(1.9, false) == Approx(0));
 }

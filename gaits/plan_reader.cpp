@@ -125,8 +125,7 @@ Resolution resolution(const Node& node) {
 Plan plan(const Node& root) {
   constexpr const char* what = "plan";
   root.entries(what);
-  if (looks_like_scene(root))
-    root.fail("plan: this is a scene; expected a plan (surefoot check takes SCENE, then PLAN)");
+  if (looks_like_scene(root)) root.fail("plan: this is a scene; expected a plan (surefoot check SCENE PLAN)");
   if (root.find("contacts")) root.fail("plan: this is a posture; expected a plan");
   root.allow_only({"surefoot", "scene", "status", "reason", "planner", "seed", "stances", "transfers", "safety_factor",
                    "safety_factor_before_refinement", "steps", "time_s", "resolution", "left_out"},

@@ -206,7 +206,7 @@ void check_sides(const Node& terrain, const Start& start) {
 Scene read_scene(const Node& root, const std::string& file) {
   root.entries("scene");
   if (root.find("stances") && root.find("transfers"))
-    root.fail("scene: this is a plan; expected a scene (surefoot check takes SCENE, then PLAN)");
+    root.fail("scene: this is a plan; expected a scene (surefoot check SCENE PLAN verifies a plan)");
   if (root.find("contacts"))
     root.fail(
         "scene: this is a posture; expected a scene (surefoot region takes one with --posture, simulate without "

@@ -176,6 +176,7 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
     if (!file && format == "text") write_stdout(help);
     else note_lines(help);
   }
+  if (arguments.explain && options.interrupted()) note("what would help is not looked for: cut off by Ctrl-C");
   if (!arguments.explain && !arguments.quiet) note("plan --explain looks for what would help");
   return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
 }

@@ -210,8 +210,10 @@ std::string region_to_text(const gaits::RegionFigure& figure, const Region& regi
                  area(region.equilibrium_area, region.area_error));
   fmt::format_to(put, "{:<8} and sure to stay at rest {}, {} of it\n", gaits::robust_name(figure.box),
                  area(region.robust_area, region.area_error), percent(region.robust_area, region.equilibrium_area));
-  fmt::format_to(put, "         both to within {:.1g} m^2, cells together to within {:.1g} m^2: proved\n",
-                 region.area_error, region.cells_error);
+  constexpr double coarse = 0.01;  // of the area that the cells share out
+  fmt::format_to(put, "         both to within {:.1g} m^2, cells together {}to within {:.1g} m^2: proved\n",
+                 region.area_error, region.cells_error > coarse * region.equilibrium_area ? "only " : "",
+                 region.cells_error);
   if (region.window)
     fmt::format_to(put, "         clipped to x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g} m\n", region.window->min().x(),
                    region.window->max().x(), region.window->min().y(), region.window->max().y());

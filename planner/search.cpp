@@ -70,10 +70,11 @@ std::uint32_t turn_seed(std::uint32_t seed, std::size_t turn) {
 }
 
 void note_left_out(const gaits::Scene& scene, const ProposalCounts& counts, gaits::Plan& plan) {
-  if (counts.swings_skipped > 0 && plan.planner != "Layers")  // which counts no landings
+  // A proof asks no landings, Layers counts none.
+  if (counts.swings_skipped > 0 && plan.status != gaits::Status::infeasible && plan.planner != "Layers")
     plan.left_out.push_back({fmt::format("whether the swinging leg meets terrain, for {} of {} landings tried",
                                          counts.swings_skipped, counts.swings_asked),
-                             "there is none within the least reach of the COM, where the shortened leg turns"});
+                             "no terrain lies within the least reach of the COM, where the shortened leg turns"});
   if (scene.criterion == gaits::Criterion::equilibrium)
     plan.left_out.push_back({"non-static contact modes", "criterion equilibrium: the robot braces actively"});
   if (!scene.restitution) plan.left_out.push_back({"frictional stability", "no restitution is given"});

@@ -65,6 +65,7 @@ void read_scene(const SimulateArguments& a, Subject& subject) {
     throw InputError(
         fmt::format("--stance: {} legs stand, expected two, for example --stance 1,2", stance.legs.size()));
   subject.title = stance.title;
+  if (stance.legs != std::vector<int>{0, 1}) subject.title += ", here contacts 1 and 2";
   subject.request.contacts = stance.contacts;
   subject.request.rho = scene.robot.radius_of_gyration;
   if (scene.start.com) subject.request.com = *scene.start.com;

@@ -41,7 +41,11 @@ class DocumentBuilder : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
     Node node = make(mark);
-    if (expects_key()) fail(mark, "nothing before the colon; expected a key");
+    if (expects_key()) {
+      const auto at = static_cast<std::size_t>(mark.pos);
+      const bool comma = at < source_.text.size() && source_.text[at] == ',';
+      fail(mark, comma ? "nothing between two commas; expected a key" : "nothing before the colon; expected a key");
+    }
     // A value left out is marked where the parser noticed, often a line later; its key says it better.
     if (in_map() && !written_null(mark)) {
       node.line_ = pool_.back().line_;

@@ -405,7 +405,7 @@ TEST_CASE("what is no plan file but could have been meant as one is called what 
     CHECK(error_of(to_text(scene, plan)) == printed);
   }
   CHECK(error_of("surefoot: 1\nterrain: {}\nrobot: {}\n") ==
-        "p:1:1: plan: this is a scene; expected a plan (surefoot check takes SCENE, then PLAN)");
+        "p:1:1: plan: this is a scene; expected a plan (surefoot check SCENE PLAN)");
   // The same words in a plan that only has another fault are none of that.
   CHECK_THAT(error_of("{\"scene\": \"a: solved in 3 steps\", \"x\": 1}"), Catch::Contains("unknown key \"x\""));
   CHECK_THAT(error_of("scene: 'a'\nx: 1\nreason: 'b: infeasible'\n"), Catch::Contains("unknown key \"x\""));

@@ -337,7 +337,7 @@ TEST_CASE("ground given from right to left is told at its chain, and only where 
 
 TEST_CASE("a plan given as a scene is called one", "[scene]") {
   CHECK(error_of("{\"surefoot\": 1, \"scene\": \"a\", \"stances\": [], \"transfers\": []}") ==
-        "s.yaml:1:1: scene: this is a plan; expected a scene (surefoot check takes SCENE, then PLAN)");
+        "s.yaml:1:1: scene: this is a plan; expected a scene (surefoot check SCENE PLAN verifies a plan)");
 }
 
 TEST_CASE("a support that cannot be is refused", "[scene]") {

@@ -117,7 +117,9 @@ TEST_CASE("Rounds of rocking from foot to foot are told once and counted", "[sim
     if (kind != "sample" && (kind != "collision" || before != "collision")) ++lines;
     before = kind;
   }
-  std::istringstream text(place.run(call).out);
+  const std::string report = place.run(call).out;
+  CHECK_THAT(report, Catch::StartsWith("vee: start feet of legs 1, 3, here contacts 1 and 2, restitution 0.05: "));
+  std::istringstream text(report);
   std::string line;
   std::size_t told = 0, folded = 0;
   for (int head = 0; head < 3; ++head) std::getline(text, line);

@@ -336,11 +336,10 @@ TEST_CASE("Scene and plan in each other's place are told apart", "[validate]") {
   REQUIRE(place.run("plan scene.yaml --effort 0 -o plan.json").status == 0);
   REQUIRE(place.shell("'" SUREFOOT_BINARY "' plan scene.yaml --effort 0 > plan.txt").status == 0);
   CHECK(place.run("check plan.json scene.yaml").err ==
-        "surefoot: error: plan.json:1:1: scene: this is a plan; expected a scene (surefoot check takes SCENE, then "
-        "PLAN)\n");
+        "surefoot: error: plan.json:1:1: scene: this is a plan; expected a scene (surefoot check SCENE PLAN "
+        "verifies a plan)\n");
   CHECK(place.run("check scene.yaml scene.yaml").err ==
-        "surefoot: error: scene.yaml:1:1: plan: this is a scene; expected a plan (surefoot check takes SCENE, then "
-        "PLAN)\n");
+        "surefoot: error: scene.yaml:1:1: plan: this is a scene; expected a plan (surefoot check SCENE PLAN)\n");
   CHECK(place.run("check scene.yaml plan.txt").err ==
         "surefoot: error: plan.txt:1:1: plan: this is a plan printed as text; write it with -o plan.json\n");
   CHECK(place.run("check scene.yaml plan.json").status == 0);

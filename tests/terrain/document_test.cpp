@@ -61,10 +61,12 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"a: ! 1\n", "f.yaml:1:4: tags (!) are not accepted"},
       {"!thing {a: 1}\n", "f.yaml:1:1: tags (!thing) are not accepted"},
       {"? [1, 2]\n: 3\n", "f.yaml:1:3: a list or map as a key; expected a word"},
-      {"{a: 1,, b: 2}", "f.yaml:1:7: nothing before the colon; expected a key"},
+      {"{a: 1,, b: 2}", "f.yaml:1:7: nothing between two commas; expected a key"},
       {"~: 1\n", "f.yaml:1:1: nothing before the colon; expected a key"},
       {"a: 'x\nb: 3\n", "f.yaml:1:4: this quote is never closed; expected another '"},
       {"a: \"x\\\"\nb: 3\n", "f.yaml:1:4: this quote is never closed; expected another \""},
+      {"{\"a\": 1,, \"b\": 2}", "f.yaml:1:9: nothing between two commas; expected a key"},
+      {"{: 1}", "f.yaml:1:2: nothing before the colon; expected a key"},
       {"a: 'it''s\n", "f.yaml:1:4: this quote is never closed; expected another '"},
       {"a: [1, 2\nb: 3\n",
        "f.yaml:2:2: not valid YAML: end of sequence flow not found; is a ']' or a comma missing in the list that "

@@ -147,7 +147,8 @@ void Checks::tell_renumbered_feet() {
   for (auto& [chain, feet] : chains) {
     const bool explained = vertices_explain(feet);
     std::erase_if(feet, [](const StandingFoot* foot) { return foot->too_high() == 0; });
-    const auto same = [&](const StandingFoot* foot) { return foot->stated->s == feet.front()->stated->s; };
+    if (feet.empty()) continue;
+    const auto same = [s = feet.front()->stated->s](const StandingFoot* foot) { return foot->stated->s == s; };
     const bool one_foothold = std::all_of(feet.begin(), feet.end(), same);
     for (const StandingFoot* foot : feet) {
       if (explained && !one_foothold) {  // the same words at every place

@@ -82,13 +82,13 @@ Vector2d start_name_place(const Plan& plan, const PageRow& row, const Vector2d& 
   return best == lines.end() ? lines.front() : *best;
 }
 
-Vector2d goal_name_place(const Scene& scene, const Plan& plan, const PageRow& row, const AlignedBox2d& goal) {
+Vector2d goal_name_place(const Scene& scene, const Plan& plan, const PageRow& row, const AlignedBox2d& goal,
+                         const std::optional<Vector2d>& start) {
   constexpr std::size_t many = 100'000;  // segments, of which each line asks all
   const std::vector<Vector2d> lines = lines_of(row, goal);
   if (scene.terrain.segments().size() > many) return lines.front();
   std::vector<AlignedBox2d> taken = waypoint_boxes(plan, row);
-  if (!row.stances.empty() && row.stances.front() == 0)
-    taken.push_back(letters(start_name_place(plan, row, row.view(plan.stances.front().com)), name_width));
+  if (start) taken.push_back(letters(*start, name_width));
   const AlignedBox2d page(row.view({row.window.min().x(), row.window.max().y()}),
                           row.view({row.window.max().x(), row.window.min().y()}));
   std::optional<Vector2d> second_best;

@@ -12,9 +12,9 @@ namespace surefoot::gaits {
 Eigen::Vector2d start_name_place(const Plan& plan, const PageRow& row, const Eigen::Vector2d& com);
 
 /// The middle of the line [px] on which the name of the goal (the part [m] that a row shows) stands: in the goal from
-/// its top down, else above, beneath or beside it; not in solid ground and, if that can be, over no waypoint and no
-/// surface.
+/// its top down, else above, beneath or beside it; not in solid ground and, if that can be, over no waypoint, no
+/// surface and not over the name of the start (its line in this row, if it has it).
 Eigen::Vector2d goal_name_place(const Scene& scene, const Plan& plan, const PageRow& row,
-                                const Eigen::AlignedBox2d& goal);
+                                const Eigen::AlignedBox2d& goal, const std::optional<Eigen::Vector2d>& start);
 
 }  // namespace surefoot::gaits

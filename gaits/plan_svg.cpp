@@ -92,7 +92,7 @@ class PlanPicture {
   /// Solid ground may hide the goal, but neither its name nor, where its height is given, its edges.
   void label_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
     if (scene_.goal.com_y) draw_goal(row, goal, {.stroke = goal_colour, .width = 1.5});
-    canvas_.text(goal_name_place(scene_, plan_, row, goal), "goal",
+    canvas_.text(goal_name_place(scene_, plan_, row, goal, start_name(row)), "goal",
                  {.colour = "#6b6400", .anchor = "middle", .bold = true});
   }
 
@@ -204,12 +204,16 @@ class PlanPicture {
     }
   }
 
-  void start(const PageRow& row) {
+  /// Where a row names the start [px].
+  std::optional<Vector2d> start_name(const PageRow& row) const {
     std::optional<Vector2d> at = scene_.start.com;
     if (!plan_.stances.empty()) at = plan_.stances.front().com;
-    if (!at || &page_.rows[page_.row_of(at->x())] != &row) return;
-    canvas_.text(start_name_place(plan_, row, row.view(*at)), "start",
-                 {.anchor = "middle", .bold = true, .halo = true});
+    if (!at || &page_.rows[page_.row_of(at->x())] != &row) return std::nullopt;
+    return start_name_place(plan_, row, row.view(*at));
+  }
+
+  void start(const PageRow& row) {
+    if (const auto at = start_name(row)) canvas_.text(*at, "start", {.anchor = "middle", .bold = true, .halo = true});
   }
 
   void axis(const PageRow& row) {

@@ -36,43 +36,62 @@ double signed_area(const Polyline& polygon) {
   return twice / 2;
 }
 
-/// Everything outside a closed chain, as far as can be seen: a rectangle, and from a corner of it along the chain.
-Polyline outside_of(const Polyline& closed, double far) {
-  const Eigen::Vector2d& p = closed.front();
-  Polyline solid = closed;
-  for (const auto& [x, y] : {std::pair(-1, -1), {-1, 1}, {1, 1}, {1, -1}, {-1, -1}})
-    solid.emplace_back(p + far * Eigen::Vector2d(x, y));
+/// A chain that is closed by corners beyond its ends.
+Polyline closed_by(const Polyline& chain, std::initializer_list<Eigen::Vector2d> corners) {
+  Polyline solid = chain;
+  solid.insert(solid.end(), corners);
   return solid;
 }
 
-/// The solid lies to the right of a chain. A closed chain bounds it alone, and so does one that nearly closes about it.
-/// Any other is taken to go on for ever in the direction to the right of its course, which is down for ground, up for a
-/// ceiling; if both its ends are walls that face each other, the solid behind these goes on, too.
-Polyline solid_of(const Polyline& chain, double far) {
-  const Eigen::Vector2d course = chain.back() - chain.front();
-  const bool walks = chain.size() > 2;
-  double length = 0;
-  for (std::size_t i = 1; i < chain.size(); ++i) length += (chain[i] - chain[i - 1]).norm();
-  if (walks && course.isZero(0)) return signed_area(chain) < 0 ? chain : outside_of(chain, far);
+/// Everything outside a closed chain, as far as can be seen: along the chain, and back along a rectangle.
+Polyline outside_of(const Polyline& closed, double far) {
+  const Eigen::Vector2d& p = closed.front();
+  const Eigen::Vector2d right(far, 0), up(0, far);
+  return closed_by(closed, {p - right - up, p - right + up, p + right + up, p + right - up, p - right - up});
+}
+
+/// Whether two straight lines cross, ends aside.
+bool cross(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const auto side = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& at) {
+    return (to - from).x() * (at - from).y() - (to - from).y() * (at - from).x();
+  };
+  return side(p, q, a) * side(p, q, b) < 0 && side(a, b, p) * side(a, b, q) < 0;
+}
+
+/// Whether what closes a chain (all corners behind its own) crosses it: then it is the solid of nothing.
+bool crosses_itself(const Polyline& solid, std::size_t chain_corners) {
+  for (std::size_t i = chain_corners - 1; i < solid.size(); ++i)
+    for (std::size_t k = 1; k < chain_corners; ++k)
+      if (cross(solid[i], solid[(i + 1) % solid.size()], solid[k - 1], solid[k])) return true;
+  return false;
+}
+
+/// What the solid to the right of a chain may be, the best guess first. A closed chain bounds it alone, and so does one
+/// that nearly closes about it. Any other is taken to go on for ever in the direction to the right of its course, which
+/// is down for ground, up for a ceiling; if both its ends are walls that face each other, behind these, too.
+std::vector<Polyline> solids_of(const Polyline& chain, double far) {
+  const Eigen::Vector2d &first = chain.front(), &last = chain.back(), course = last - first;
+  if (chain.size() > 2 && course.isZero(0)) return {signed_area(chain) < 0 ? chain : outside_of(chain, far)};
   const Eigen::Vector2d away = std::abs(course.x()) >= 0.5 * std::abs(course.y())
-                                   ? Eigen::Vector2d(0, course.x() > 0 ? -1 : 1)
-                                   : Eigen::Vector2d(course.y() > 0 ? 1 : -1, 0);
+                                   ? Eigen::Vector2d(0, course.x() > 0 ? -far : far)
+                                   : Eigen::Vector2d(course.y() > 0 ? far : -far, 0);
   const Eigen::Vector2d onward(-away.y(), away.x());
   constexpr double steep = 0.8;  // sine of the angle between the course and a wall
   const auto rise = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-    return -away.dot((to - from).normalized());
+    return -away.dot((to - from).normalized()) / far;
   };
-  Polyline solid = chain;
-  if (walks && rise(chain[0], chain[1]) < -steep && rise(chain[chain.size() - 2], chain.back()) > steep) {
-    for (const auto& [along, down] : {std::pair(1, 0), {1, 1}, {-1, 1}, {-1, 0}})
-      solid.emplace_back((along > 0 ? chain.back() : chain.front()) + far * (along * onward + down * away));
-    return solid;
-  }
+  std::vector<Polyline> guesses;
+  if (chain.size() > 2 && rise(first, chain[1]) < -steep && rise(chain[chain.size() - 2], last) > steep)
+    guesses.push_back(closed_by(chain, {last + onward, last + onward + away, first - onward + away, first - onward}));
+  double length = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) length += (chain[i] - chain[i - 1]).norm();
   constexpr double nearly_closed = 0.1;  // share of the length
-  if (walks && course.norm() < nearly_closed * length) return signed_area(chain) < 0 ? chain : Polyline();
-  solid.push_back(chain.back() + far * away);
-  solid.push_back(chain.front() + far * away);
-  return solid;
+  if (chain.size() > 2 && course.norm() < nearly_closed * length) {
+    if (signed_area(chain) < 0) guesses.push_back(chain);
+  } else {
+    guesses.push_back(closed_by(chain, {last + away, first + away}));
+  }
+  return guesses;
 }
 
 Eigen::AlignedBox2d bounds_of(const Polyline& points) {
@@ -103,18 +122,21 @@ TerrainPicture::TerrainPicture(const terrain::Terrain& terrain) : terrain_(terra
   const auto shorter = [](const auto& a, const auto& b) { return a.second < b.second; };
   usual_friction_ = std::max_element(length_by_friction.begin(), length_by_friction.end(), shorter)->first;
 
-  const double far = 4 * terrain.bounds().diagonal().norm();
+  constexpr double diagonals = 1000;  // as good as for ever: pictures show start and goal
   for (std::size_t c = 0; c < chains_.size(); ++c) {
-    Polyline solid = solid_of(chains_[c], far);
-    const Eigen::AlignedBox2d box = bounds_of(solid);
-    for (std::size_t other = 0; other < chains_.size() && !solid.empty(); ++other)
-      for (const auto& p : chains_[other])
-        if (other != c && box.contains(p) && contains(solid, p)) {
-          solid.clear();  // another chain, hence free space, lies there
-          break;
-        }
-    solids_.push_back(std::move(solid));
+    Polyline& solid = solids_.emplace_back();
+    for (Polyline& guess : solids_of(chains_[c], diagonals * terrain.bounds().diagonal().norm()))
+      if (solid.empty() && !crosses_itself(guess, chains_[c].size()) && !has_others_inside(guess, c))
+        solid = std::move(guess);
   }
+}
+
+bool TerrainPicture::has_others_inside(const Polyline& solid, std::size_t chain) const {
+  const Eigen::AlignedBox2d box = bounds_of(solid);
+  for (std::size_t other = 0; other < chains_.size(); ++other)
+    for (const auto& p : chains_[other])
+      if (other != chain && box.contains(p) && contains(solid, p)) return true;
+  return false;
 }
 
 std::vector<Polyline> TerrainPicture::ground_in(const Eigen::AlignedBox2d& window) const {

@@ -56,6 +56,8 @@ class TerrainPicture {
 
  private:
   Grip grip(const terrain::Segment& segment) const;
+  /// Whether another chain, hence free space, lies in what a chain is taken to bound.
+  bool has_others_inside(const Polyline& solid, std::size_t chain) const;
   void hatch(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window, int chain) const;
 
   const terrain::Terrain& terrain_;

@@ -332,6 +332,22 @@ TEST_CASE("the name of the goal covers neither a waypoint nor its labels", "[pla
     CHECK((other.right < goal.left || goal.right < other.left || other.below < goal.above || goal.below < other.above));
 }
 
+TEST_CASE("the name of the goal keeps off that of the start, without a plan, too", "[plan_svg]") {
+  Scene scene = scene_on(level_ground_and());
+  scene.start.com = {-0.05, 0.5};
+  scene.goal.com_x = {-0.1, 0};
+  scene.goal.com_y = {0.3, GENERATE(0.6, 0.63, 0.66)};
+  std::vector<Box> names;
+  each_element(read_xml_text(to_svg(scene, Plan())), [&](const std::string& name, const ptree& element) {
+    if (name == "text" && element.get("<xmlattr>.text-anchor", "") == "middle" &&
+        (element.data() == "goal" || element.data() == "start"))
+      names.push_back(box_of_letters(element.get<double>("<xmlattr>.x"), element.get<double>("<xmlattr>.y"), 26));
+  });
+  REQUIRE(names.size() == 2);
+  const Box &one = names[0], &other = names[1];
+  CHECK((other.right < one.left || one.right < other.left || other.below < one.above || one.below < other.above));
+}
+
 TEST_CASE("scenes of any size and place are drawn", "[plan_svg]") {
   for (const double factor : {1e-6, 1e6})
     for (const double shift : {0.0, 1e6}) {

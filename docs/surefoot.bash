@@ -6,7 +6,8 @@ _surefoot() {
   local IFS=$'\n' help
   COMPREPLY=()
   # A key pressed by chance builds nothing: of the launcher the program is asked that it has built.
-  [[ $program != */* || ! -e ${program%/*}/CMakePresets.json ]] || program=${program%/*}/build/release/bin/surefoot
+  program=$(readlink -f -- "$(type -P -- "$program")")
+  [[ ! -e ${program%/*}/CMakePresets.json ]] || program=${program%/*}/build/release/bin/surefoot
   ((COMP_CWORD > 1)) || command=--help
   help=$("$program" "$command" --help 2>/dev/null)
   if [[ $word == -* ]]; then

@@ -70,6 +70,11 @@ is "no command before anything is built" "$(program=$work/tree/surefoot offered 
 ln -s "$program" tree/build/release/bin/surefoot
 is "commands behind the launcher" "$(program=$work/tree/surefoot offered "")" "$commands"
 is "scenes behind the launcher" "$(program=tree/surefoot offered plan stairs_u)" stairs_up
+ln -s tree/surefoot linked
+mkdir bin && ln -s ../tree/surefoot bin/surefoot
+is "scenes behind a link to the launcher" "$(program=./linked offered plan stairs_u)" stairs_up
+is "scenes behind a link in PATH" "$(PATH=$work/bin:$PATH program=surefoot offered plan stairs_u)" stairs_up
+is "scenes behind the launcher in PATH" "$(PATH=$work/tree:$PATH program=surefoot offered plan stairs_u)" stairs_up
 is "the launcher is not called" "$([[ -e $work/.called ]] && echo called)" ""
 is "commands of a program in PATH, in a folder of another project" \
   "$(PATH=$(dirname "$program"):$PATH program=surefoot offered "")" "$commands"

@@ -164,6 +164,15 @@ expect "asks for no packages that are there" not_called apt-get
 run plan x
 expect "an unchanged tree is not built again" nothing_called
 touch "$tree/terrain/terrain.cpp"
+for arguments in --help "plan --help"; do
+  # shellcheck disable=SC2086
+  run $arguments
+  expect "a changed source: $arguments goes to the built program" grep -qF -- "[--help]" "$work/out"
+  expect "a changed source: $arguments builds nothing" nothing_called
+done
+run plna x
+expect "a changed source: what is no command builds nothing" nothing_called
+expect "a changed source: what is no command has status 2" test "$status" -eq 2
 run plan x
 expect "a changed source is built" called "cmake --build"
 run plan x

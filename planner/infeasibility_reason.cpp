@@ -161,19 +161,22 @@ void Explainer::place_between(Graph& graph) {
 
 std::string number(double value) { return fmt::format("{:.4g}", std::abs(value) < 5e-7 ? 0.0 : value); }
 
-std::string interval_words(const char* axis, const Interval& interval) {
-  const std::string from = number(interval.first), to = number(interval.second);
+template <class Words>
+std::string interval_words(const char* axis, const Interval& interval, const Words& in_words) {
+  const std::string from = in_words(interval.first), to = in_words(interval.second);
   return from == to ? fmt::format("at {} = {}", axis, from) : fmt::format("between {} = {} and {}", axis, from, to);
 }
 
+std::string interval_words(const char* axis, const Interval& interval) {
+  return interval_words(axis, interval, number);
+}
+
 std::string Explainer::goal_words() const {
-  const auto words = [](const char* axis, const std::optional<Interval>& interval) {
-    if (!interval) return std::string();
-    const auto& [from, to] = *interval;
-    return from == to ? fmt::format("at {} = {}", axis, from) : fmt::format("between {} = {} and {}", axis, from, to);
-  };
-  const std::string x = words("x", scene_.goal.com_x), y = words("y", scene_.goal.com_y);
-  return "in the goal, " + x + (x.empty() || y.empty() ? "" : " and ") + y + ": ";
+  const auto as_given = [](double value) { return fmt::format("{}", value); };
+  std::string words;
+  if (const auto& x = scene_.goal.com_x) words = interval_words("x", *x, as_given);
+  if (const auto& y = scene_.goal.com_y) words += (words.empty() ? "" : " and ") + interval_words("y", *y, as_given);
+  return "in the goal, " + words + ": ";
 }
 
 std::string Explainer::place_words() const {

@@ -175,8 +175,9 @@ int report_no_plan(const PlanArguments& arguments, const gaits::Scene& scene, co
     const std::string help = what_would_help(scene, options, arguments.quiet);
     if (!file && format == "text") write_stdout(help);
     else note_lines(help);
+  } else if (arguments.explain) {
+    note("what would help is not looked for: cut off by Ctrl-C");
   }
-  if (arguments.explain && options.interrupted()) note("what would help is not looked for: cut off by Ctrl-C");
   if (!arguments.explain && !arguments.quiet) note("plan --explain looks for what would help");
   return plan.status == gaits::Status::infeasible ? exit_infeasible : exit_failure;
 }

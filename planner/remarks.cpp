@@ -173,12 +173,14 @@ std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& pl
   if (const auto chain = under ? terrain::solid_around(scene.terrain, Eigen::AlignedBox2d(com)) : std::nullopt)
     return fmt::format("the COM of stance {} lies behind chain {}, in what pictures show as solid ground",
                        seen->index + 1, *chain);
-  // Of a chain that is the wrong way round the scene's remark has spoken.
+  constexpr int with_sides = 3;  // segments
+  const bool has_sides =
+      std::ranges::count(scene.terrain.segments(), seen->chain, &terrain::Segment::chain) >= with_sides;
   return fmt::format(
       "the COM of stance {} looks at the back of chain {} at ({:.6g}, {:.6g}), so it is in what pictures show as "
-      "solid{}",
+      "solid: {}",
       seen->index + 1, seen->chain, seen->at.x(), seen->at.y(),
-      scene_remark(scene).empty() ? ": chains are lines without thickness, give a ceiling its sides" : "");
+      has_sides ? "is it given the wrong way round?" : "chains are lines without thickness, give a ceiling its sides");
 }
 
 }  // namespace surefoot::planner

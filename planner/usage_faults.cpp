@@ -165,7 +165,7 @@ std::string overflowing_argument(const CLI::App& app) {
       for (const std::string& given : option->results())
         if (overflows(given, whole))
           return fmt::format("{}: found {}, expected a {}", option->get_name(), terrain::shown(given),
-                             whole ? "whole number below 2^63" : "number such as 0.25 or 1e-3");
+                             whole ? "whole number between -2^63 and 2^63" : "number such as 0.25 or 1e-3");
     }
   return "";
 }

@@ -44,7 +44,7 @@ class DocumentBuilder : public YAML::EventHandler {
     if (expects_key()) {
       const auto at = static_cast<std::size_t>(mark.pos);
       const bool comma = at < source_.text.size() && source_.text[at] == ',';
-      fail(mark, comma ? "nothing between two commas; expected a key" : "nothing before the colon; expected a key");
+      fail(mark, comma ? "nothing before the comma; expected a key" : "nothing before the colon; expected a key");
     }
     // A value left out is marked where the parser noticed, often a line later; its key says it better.
     if (in_map() && !written_null(mark)) {

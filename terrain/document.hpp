@@ -207,7 +207,8 @@ std::string other_name(std::string_view word, const std::vector<std::string>& ke
 /// behind its colon, or cut short.
 std::string key_meant(std::string_view unknown, const std::vector<std::string>& keys);
 
-/// The question for an unknown key of a map, which is first asked of keys that the map has not; "" if there is none.
+/// The question for an unknown key of a map; of keys that it may stand for alike, those that the map has not go first.
+/// "" if there is none.
 std::string did_you_mean(std::string_view unknown, const std::vector<std::string>& keys,
                          const std::function<bool(const std::string&)>& is_given);
 

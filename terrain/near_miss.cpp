@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <iterator>
 #include <numeric>
 
 #include "terrain/document.hpp"
@@ -39,7 +38,7 @@ constexpr std::array<std::array<std::string_view, 4>, 6> same_meaning{{
     {"normal", "n"},
     {"p", "position", "point"},
     {"vertices", "points"},
-    {"feet", "legs", "footholds", "foothold"},
+    {"feet", "legs", "footholds"},
 }};
 
 /// The names that mean the same as a word, itself among them; nullptr if it is not known.
@@ -84,8 +83,10 @@ std::string key_meant(std::string_view unknown, const std::vector<std::string>& 
   constexpr std::size_t least_letters = 3;
   const std::string_view before_colon = unknown.substr(0, unknown.find(':'));
   if (std::find(keys.begin(), keys.end(), before_colon) != keys.end()) return std::string(before_colon);
-  // "mu" is no slip of the pen for "nu".
-  if (names_of(lower_case(std::string(unknown))) != nullptr) return other_name(unknown, keys);
+  constexpr std::size_t symbol = 3;  // letters: "mu" is no slip of the pen for "nu"
+  if (names_of(lower_case(std::string(unknown))) != nullptr) {
+    if (std::string other = other_name(unknown, keys); !other.empty() || unknown.size() <= symbol) return other;
+  }
   if (std::string near = near_miss(unknown, keys); !near.empty()) return near;
   const auto begun = [&](const std::string& key) { return key.starts_with(std::string(unknown) + '_'); };
   const auto longer = std::find_if(keys.begin(), keys.end(), begun);  // "com" for "com_x"
@@ -94,11 +95,11 @@ std::string key_meant(std::string_view unknown, const std::vector<std::string>& 
 
 std::string did_you_mean(std::string_view unknown, const std::vector<std::string>& keys,
                          const std::function<bool(const std::string&)>& is_given) {
-  std::vector<std::string> absent;
-  std::remove_copy_if(keys.begin(), keys.end(), std::back_inserter(absent), is_given);
-  if (const std::string meant = key_meant(unknown, absent); !meant.empty()) return "did you mean \"" + meant + "\"?";
-  const std::string given = key_meant(unknown, keys);
-  return given.empty() ? "" : "did you mean \"" + given + "\", which is given already?";
+  std::vector<std::string> absent_first = keys;
+  std::stable_partition(absent_first.begin(), absent_first.end(), [&](const auto& key) { return !is_given(key); });
+  const std::string meant = key_meant(unknown, absent_first);
+  if (meant.empty()) return "";
+  return "did you mean \"" + meant + "\"" + (is_given(meant) ? ", which is given already?" : "?");
 }
 
 }  // namespace surefoot::terrain

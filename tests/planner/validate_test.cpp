@@ -117,6 +117,14 @@ TEST_CASE("A plan over a ceiling without sides is remarked on, plans of canned s
   CHECK_THAT(run.err,
              Catch::Contains("looks at the back of chain 1 at (") && Catch::Contains("give a ceiling its sides\n"));
   CHECK_THAT(place.run("check plate.yaml plan.json").err, Catch::Contains("looks at the back of chain 1 at ("));
+  // Something that has sides has no need of them.
+  place.write("box.yaml", with("[[-1, 0], [4, 0]]",
+                               "[[-1, 0], [4, 0]]\n"
+                               "    - vertices: [[0.8, .05], [1.2, .05], [1.2, .15], [0.8, .15], [0.8, .05]]"));
+  const auto over = place.run("plan box.yaml --effort 0 -o plan.json");
+  REQUIRE(over.status == 0);
+  CHECK_THAT(over.err, Catch::Contains("looks at the back of chain 1 at (") &&
+                           Catch::Contains("as solid: is it given the wrong way round?\n"));
   for (const std::string name : {"chimney", "vee", "stairs_up", "ridge"})
     CHECK_THAT(place
                    .run("check " SUREFOOT_MAPS "/" + name + ".yaml " SUREFOOT_TESTS_DIR "/regression/golden/" + name +

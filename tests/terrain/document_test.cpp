@@ -61,11 +61,12 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"a: ! 1\n", "f.yaml:1:4: tags (!) are not accepted"},
       {"!thing {a: 1}\n", "f.yaml:1:1: tags (!thing) are not accepted"},
       {"? [1, 2]\n: 3\n", "f.yaml:1:3: a list or map as a key; expected a word"},
-      {"{a: 1,, b: 2}", "f.yaml:1:7: nothing between two commas; expected a key"},
+      {"{a: 1,, b: 2}", "f.yaml:1:7: nothing before the comma; expected a key"},
       {"~: 1\n", "f.yaml:1:1: nothing before the colon; expected a key"},
       {"a: 'x\nb: 3\n", "f.yaml:1:4: this quote is never closed; expected another '"},
       {"a: \"x\\\"\nb: 3\n", "f.yaml:1:4: this quote is never closed; expected another \""},
-      {"{\"a\": 1,, \"b\": 2}", "f.yaml:1:9: nothing between two commas; expected a key"},
+      {"{\"a\": 1,, \"b\": 2}", "f.yaml:1:9: nothing before the comma; expected a key"},
+      {"{, a: 1}", "f.yaml:1:2: nothing before the comma; expected a key"},
       {"{: 1}", "f.yaml:1:2: nothing before the colon; expected a key"},
       {"a: 'it''s\n", "f.yaml:1:4: this quote is never closed; expected another '"},
       {"a: [1, 2\nb: 3\n",
@@ -414,6 +415,9 @@ TEST_CASE("unknown keys are refused with the nearest known one", "[document]") {
         "f.yaml:2:1: terrain: unknown key \"fricton\"; did you mean \"friction\", which is given already?");
   CHECK(refuse("mu: 1\n") == "f.yaml:1:1: terrain: unknown key \"mu\"; did you mean \"friction\"?");
   CHECK(error_of([&] {
+          parse("{com_x: 1, com_xx: 2}").root().allow_only({"com_x", "com_y"}, "goal");
+        }) == "f.yaml:1:12: goal: unknown key \"com_xx\"; did you mean \"com_x\", which is given already?");
+  CHECK(error_of([&] {
           parse("{n: 1, nu: 2}").root().allow_only({"n", "mu"}, "contact");
         }) == "f.yaml:1:8: contact: unknown key \"nu\"; did you mean \"mu\"?");
   CHECK(refuse("{\u00a0chains: 1}") ==
@@ -463,6 +467,7 @@ TEST_CASE("near misses are near", "[document]") {
   CHECK(key_meant("mu", {"kappa", "nu"}).empty());  // no misspelt torque
   CHECK(key_meant("radius_of_gyration", {"com", "rho"}) == "rho");
   CHECK(key_meant("legs", {"com", "feet"}) == "feet");
+  CHECK(key_meant("legs", {"leg", "foothold"}) == "leg");
   CHECK(key_meant("rho", {"com", "feet"}).empty());
 }
 

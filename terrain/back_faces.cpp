@@ -174,8 +174,9 @@ std::optional<int> solid_around(const Terrain& terrain, const Eigen::AlignedBox2
   if (std::any_of(segments.begin(), segments.end(), cuts)) return std::nullopt;
   const double far = 2 * terrain.bounds().extend(area).sizes().norm();
   std::optional<int> above_or_below;
+  const double aside = 1e-7 * far;  // [m] a ray that only grazes a vertex, level with it, would see its front
   for (const Point& way : {Point(0, 1), Point(0, -1), Point(1, 0), Point(-1, 0)}) {
-    const Sight sight = look(terrain, area.center(), way, far, nullptr);
+    const Sight sight = look(terrain, area.center() + aside * Point(way.y(), way.x()), way, far, nullptr);
     if (sight.met == nullptr) continue;
     if (!sight.back) return std::nullopt;
     if (way.x() == 0 && !above_or_below) above_or_below = sight.met->chain;

@@ -38,7 +38,8 @@ std::string scale_remark(const gaits::Scene& scene) {
 double too_low(const gaits::Robot& robot) { return robot.reach_max / 4; }
 
 constexpr const char* sides =
-    "Free space is on the left of a chain: ground runs from left to right, a ceiling from right to left";
+    "Free space is on the left of a chain: ground runs from left to right, a ceiling from right to left, a wall on the "
+    "left down, one on the right up";
 
 std::string back_face_words(const terrain::BackFace& seen) {
   return fmt::format(

@@ -121,9 +121,10 @@ std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stanc
     return fmt::format(
         "no COM balances on feet {}, even without disturbances: the ground is too steep for its friction",
         legs_in_words(stance));
-  return fmt::format(
-      "no COM balances on feet {}: friction bears sideways pushes below {:.6g} of the weight, kappa is {}",
-      legs_in_words(stance), std::abs(borne) <= error ? 0.0 : borne, kappa);
+  const std::string pushes =
+      std::abs(borne) <= error ? "no sideways push" : fmt::format("sideways pushes below {:.6g} of the weight", borne);
+  return fmt::format("no COM balances on feet {}: friction bears {}, kappa is {}", legs_in_words(stance), pushes,
+                     kappa);
 }
 
 namespace {

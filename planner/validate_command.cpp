@@ -60,12 +60,13 @@ std::optional<gaits::Scene> validate(const std::string& path, std::string& repor
   const std::string name = path == "-" ? "<stdin>" : one_line(path);
   if (const std::size_t kept = faults.kept().size(); kept < faults.count())
     fmt::format_to(std::back_inserter(report), "{}: and at least {} more\n", name, faults.count() - kept);
-  if (faults.count() > 0) return std::nullopt;
-  fmt::format_to(std::back_inserter(report), "{}: valid: {}, {}, {}\n", name, one_line(scene->name),
-                 ground_summary(scene->terrain), start);
-  if (const std::string remark = scene_remark(*scene); !remark.empty())
+  const bool valid = faults.count() == 0;
+  if (valid)
+    fmt::format_to(std::back_inserter(report), "{}: valid: {}, {}, {}\n", name, one_line(scene->name),
+                   ground_summary(scene->terrain), start);
+  if (const std::string remark = scene ? scene_remark(*scene) : ""; !remark.empty())
     fmt::format_to(std::back_inserter(report), "{}: remark: {}\n", name, remark);
-  return scene;
+  return valid ? std::move(scene) : std::nullopt;
 }
 
 }  // namespace

@@ -396,7 +396,8 @@ TEST_CASE("Misspelt words are answered with what was probably meant", "[command]
     CHECK(run.status == 2);
     CHECK(run.err == "surefoot: error: " + name + " is an empty text\n");
   }
-  const std::string nines(20, '9'), number = "a number such as 0.25 or 1e-3", whole = "a whole number between -2^63 and 2^63";
+  const std::string nines(20, '9'), number = "a number such as 0.25 or 1e-3",
+                                    whole = "a whole number between -2^63 and 2^63";
   const std::vector<std::pair<std::string, std::string>> beyond{{"--seed " + nines, whole},
                                                                 {"--seed -" + nines, whole},
                                                                 {"--seed 0x" + nines, whole},

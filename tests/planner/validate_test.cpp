@@ -89,8 +89,25 @@ TEST_CASE("Obstacles given the wrong way round and goals in solid ground are rem
   CHECK_THAT(told(with("[[-1, 0], [4, 0]]", "[[-1, 0], [1, 0]]\n    - vertices: [[1.05, -0.3], [1.6, -0.3]]",
                        with("com_x: [1.5, 2]", "com_y: [-0.25, -0.1]"))),
              !Catch::Contains("remark"));
+  // Level with the lowest vertex of a pit.
+  for (const std::string height : {"[-0.6, -0.4]", "[-0.51, -0.49]", "[-0.6, -0.41]"})
+    CHECK_THAT(told(with("[[-1, 0], [4, 0]]", "[[-1, 0], [0.5, 0], [1, -0.5], [1.4, 0], [4, 0]]", with_height(height))),
+               Catch::Contains("remark: the goal lies behind chain 0"));
   // The ordinary way to say that there is no lower limit.
   CHECK_THAT(told(with_height("[-100, 0.6]")), Catch::Contains("valid") && !Catch::Contains("remark"));
+}
+
+TEST_CASE("What most likely keeps a start from standing is remarked on beside the fault", "[validate]") {
+  const Workplace place;
+  // A chimney whose left wall is given upwards.
+  std::string chimney = with("[[-1, 0], [4, 0]]", "[[0, 0], [0, 4]]\n    - vertices: [[0.8, 0], [0.8, 4]]");
+  chimney = with("{x: -0.3}, {x: 0.25}, {x: 0}", "{chain: 0, s: 1}, {chain: 1, s: 1}, {chain: 0, s: 0.7}", chimney);
+  place.write("s.yaml", with("com_x: [1.5, 2]", "com_y: [2, 2.6]", chimney));
+  const auto run = place.run("validate s.yaml");
+  CHECK(run.status == 2);
+  CHECK_THAT(run.out, Catch::StartsWith("s.yaml:10:3: start: no COM within reach of feet ") &&
+                          Catch::Contains("\ns.yaml: remark: chain 0 turns its back to chain 1 at (0, 2)"));
+  CHECK_THAT(run.out, !Catch::Contains("valid"));
 }
 
 TEST_CASE("A start foot that no COM reaches together with another is remarked on", "[validate]") {
@@ -225,7 +242,8 @@ TEST_CASE("A start that cannot stand is refused with its cause by plan and valid
   const std::vector<Start> starts{
       {with("kappa: 0.1", "kappa: 0.7"), level + "0.6 of the weight, kappa is 0.7"},
       {with("kappa: 0.1", "kappa: 0.6"), level + "0.6 of the weight, kappa is 0.6"},
-      {with("kappa: 0.1", "kappa: 0", with("0.6", "0")), level + "0 of the weight, kappa is 0"},
+      {with("kappa: 0.1", "kappa: 0", with("0.6", "0")),
+       "no COM balances on feet 1 and 2: friction bears no sideways push, kappa is 0"},
       {with("nu: 0.03", "nu: 0.3"), none + " every disturbance: nu = 0.3 m alone is too much"},
       {with("{x: 0.25}", "{x: -0.29}"),
        none + " every disturbance: nu = 0.03 m alone is too much for feet 0.01 m apart"},
@@ -268,7 +286,8 @@ TEST_CASE("A start that cannot stand is refused with its cause by plan and valid
                    with("[[-1, 0], [4, 0]]", "[[0, 0], [1.58, 0.4108]]",
                         with("{x: -0.3}, {x: 0.25}, {x: 0}", "{x: 0.2}, {x: 1.3}, {x: 0.5}", with("0.9]", "2]")))));
   CHECK_THAT(place.run("validate s.yaml").out,
-             Catch::Contains(level + "0 of the weight, kappa is 0.1") && !Catch::Contains("even without"));
+             Catch::Contains("no COM balances on feet 1 and 2: friction bears no sideways push, kappa is 0.1") &&
+                 !Catch::Contains("even without"));
   // Friction that just bears kappa is no fault of the start.
   place.write("s.yaml", with("kappa: 0.1", "kappa: 0.59"));
   CHECK_THAT(place.run("validate s.yaml").out, Catch::EndsWith("start stands\n"));

@@ -33,6 +33,13 @@ const std::vector<std::string>& objective_names() {
   return names;
 }
 
+const std::string* known_word(std::string_view word, const std::vector<std::string>& words) {
+  const std::string lower = terrain::lower_case(std::string(word));
+  const auto found =
+      std::find_if(words.begin(), words.end(), [&](const auto& one) { return terrain::lower_case(one) == lower; });
+  return found == words.end() ? nullptr : &*found;
+}
+
 std::string not_known(std::string_view what, std::string_view word, const std::vector<std::string>& words) {
   const std::string near = terrain::near_miss(word, words);
   return fmt::format("{}: \"{}\" is not known; expected one of: {}{}", what, terrain::shown(word),

@@ -46,6 +46,8 @@ struct Goal {
 constexpr std::uint32_t greatest_seed = 2147483562;  ///< of OMPL's generator; 0 acts as 1 there, so it is refused
 const std::vector<std::string>& planner_names();     ///< "auto", "Layers", "RRT", "KPIECE1", "EST", "SST"
 const std::vector<std::string>& objective_names();   ///< "steps", "safety", "distance"
+/// The one of `words` that is meant, upper or lower case alike; nullptr if it is none of them.
+const std::string* known_word(std::string_view word, const std::vector<std::string>& words);
 /// The message for a word that is none of `words`: names all, and the nearest.
 std::string not_known(std::string_view what, std::string_view word, const std::vector<std::string>& words);
 

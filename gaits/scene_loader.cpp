@@ -54,8 +54,8 @@ constexpr const char* a_radius = "; add such as \"radius_of_gyration: 0.18\", in
 constexpr const char* a_reach = "; add such as \"reach: [0.25, 0.9]\", from the COM to a foot, in metres";
 
 std::string one_of(const Node& node, std::string_view what, const std::vector<std::string>& words) {
-  std::string word = node.text(what);
-  if (std::find(words.begin(), words.end(), word) != words.end()) return word;
+  const std::string word = node.text(what);
+  if (const std::string* known = known_word(word, words)) return *known;
   node.fail(not_known(what, word, words));
 }
 

@@ -25,11 +25,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// `word` among `words`, upper or lower case alike. Throws, with the near miss, if it is none of them.
+/// `word` among `words`. Throws, with the near miss, if it is none of them.
 std::string one_of(const std::string& what, const std::string& word, const std::vector<std::string>& words) {
-  const auto same = [&](const std::string& other) { return terrain::lower_case(word) == terrain::lower_case(other); };
-  const auto found = std::find_if(words.begin(), words.end(), same);
-  if (found != words.end()) return *found;
+  if (const std::string* known = gaits::known_word(word, words)) return *known;
   throw terrain::InputError(gaits::not_known(what, word, words));
 }
 

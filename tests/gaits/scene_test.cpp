@@ -240,8 +240,8 @@ TEST_CASE("words that are not choices are refused, near ones suggested", "[scene
       Fault{"criterion: robust", "criterion: robst",
             "s.yaml:16:14: criterion: \"robst\" is not known; expected one of: robust, equilibrium, frictional, both "
             "(did you mean \"robust\"?)"},
-      Fault{"planner: EST", "planner: rrt",
-            "s.yaml:23:45: planner: \"rrt\" is not known; expected one of: auto, Layers, RRT, KPIECE1, EST, SST (did "
+      Fault{"planner: EST", "planner: rtt",
+            "s.yaml:23:45: planner: \"rtt\" is not known; expected one of: auto, Layers, RRT, KPIECE1, EST, SST (did "
             "you mean \"RRT\"?)"},
       Fault{"planner: EST", "planner: dijkstra",
             "s.yaml:23:45: planner: \"dijkstra\" is not known; expected one of: auto, Layers, RRT, KPIECE1, EST, SST"},
@@ -250,6 +250,12 @@ TEST_CASE("words that are not choices are refused, near ones suggested", "[scene
             "\"steps\"?)"},
       Fault{"name: test", "name: [a]", "s.yaml:2:7: name: a list of 1 item is given"});
   CHECK_THAT(error_of(with(fault.old_part, fault.new_part)), Catch::StartsWith(fault.error));
+}
+
+TEST_CASE("choices may be written in upper or lower case, as on the command line", "[scene]") {
+  CHECK(parse_scene(with("planner: EST", "planner: kpiece1"), "s.yaml").search.planner == "KPIECE1");
+  CHECK(parse_scene(with("objective: safety", "objective: Distance"), "s.yaml").search.objective == "distance");
+  CHECK(parse_scene(with("criterion: robust", "criterion: Equilibrium"), "s.yaml").criterion == Criterion::equilibrium);
 }
 
 TEST_CASE("feet that cannot stand where they are put are refused", "[scene]") {

@@ -68,7 +68,7 @@ void legend(SvgCanvas& canvas, const Page& page, const Plan& plan, bool refused,
     canvas.rectangle(at - Vector2d(0, 6), 22, 12, paint);
   };
   if (!plan.stances.empty())
-    entry("R_SS(W): COMs in balance", [&](const Vector2d& at) {
+    entry("R_SS(W) within reach: COMs in balance", [&](const Vector2d& at) {
       box(at, {.fill = support_colour, .opacity = 0.25});
       box(at, support_edge);
     });

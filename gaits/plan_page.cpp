@@ -112,6 +112,8 @@ Page lay_out(const Scene& scene, const Plan& plan, double top) {
     if (count > most_rows) {
       page.scale = free_width / (length / most_rows + 2 * reach);
       count = most_rows;
+    } else if (count > 1) {  // as large as fits: rows overlap by two reaches
+      page.scale = std::min(free_width / (length / count + 2 * reach), widest_reach / reach);
     }
   }
   free_width = std::min(free_width, std::max(narrowest_page - 2 * margin, page.scale * (length + 2 * pad)));

@@ -191,15 +191,29 @@ class PlanPicture {
     return words;
   }
 
+  /// Where the number of a waypoint at `at` [px] stands: above it, or else beneath or beside it, over no other
+  /// waypoint.
+  std::optional<Vector2d> number_place(const PageRow& row, const Vector2d& at, Places& places) const {
+    constexpr double apart = 15, aside = 12, middle = 4;  // [px] of numbers; middle of its letters above their line
+    const auto covers = [&](const Vector2d& line) {
+      return std::any_of(row.stances.begin(), row.stances.end(), [&](int k) {
+        return (row.view(plan_.stances[k].com) - line + Vector2d(0, middle)).norm() < middle + dot_radius;
+      });
+    };
+    for (const Vector2d& offset : {Vector2d(0, -number_above), Vector2d(0, number_above + 2 * middle),
+                                   Vector2d(aside, middle), Vector2d(-aside, middle)})
+      if (!covers(at + offset) && places.take(at + offset, apart)) return at + offset;
+    return std::nullopt;
+  }
+
   void waypoints(const PageRow& row, Places& places) {
     for (const int k : row.stances) {
       const Vector2d at = row.view(plan_.stances[k].com);
       const bool is_weakest = weakest_.bounded() && !weakest_.in_transfer && weakest_.index == k;
       if (is_weakest) canvas_.circle(at, ring_radius, {.fill = weak_colour});
       canvas_.circle(at, dot_radius, com_dot, tooltip(k));
-      const Vector2d above = at - Vector2d(0, number_above);
-      if (places.take(above, 15))
-        canvas_.text(above, k > 0 && k == plan_.steps() ? "end" : std::to_string(k + 1),
+      if (const auto line = number_place(row, at, places))
+        canvas_.text(*line, k > 0 && k == plan_.steps() ? "end" : std::to_string(k + 1),
                      {.size = 10, .anchor = "middle", .halo = true});
     }
   }

@@ -60,7 +60,7 @@ std::string place_in_words(const WeakestPlace& place, int steps) {
 }
 
 std::string limit_in_words(const std::string& limit, const std::vector<int>& legs) {
-  if (limit == "none") return "no disturbance, however large, moves the robot";
+  if (limit == "none") return "no disturbance, however large, is too much";
   if (limit == "equilibrium") return "the feet cannot balance a larger disturbance";
   if (limit.size() != legs.size()) return limit;
   std::vector<std::pair<char, std::vector<int>>> groups;  // legs by state, in order of appearance

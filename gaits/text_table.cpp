@@ -38,7 +38,7 @@ std::string TextTable::groups(const Widths& widths, bool colour) const {
     }
     start += widths[c] + gap.size();
   }
-  return paint(text, "2", colour) + "\n";
+  return text.empty() ? "" : paint(text, "2", colour) + "\n";
 }
 
 std::string TextTable::line(const std::vector<Cell>& row, const Widths& widths, bool colour) const {

@@ -121,6 +121,8 @@ done < <(grep '^| .*`' "$source/docs/papers.md")
 rm -f docs/figures/*.svg docs/figures/{,frictional/}areas.md
 cp "$source/docs/figures/clattering_map.svg" docs/figures # a benchmark's
 bash docs/make_figures.sh "$program" >"$work/figures.log" 2>&1 || fail "docs/make_figures.sh: $(tail -1 "$work/figures.log")"
+surefoot plan stairs_up -q --svg docs/stairs_up.svg >/dev/null # the README's; tests/regression/update_golden.sh stores it
+cmp docs/stairs_up.svg "$source/docs/stairs_up.svg" || fail "docs/stairs_up.svg is not what plan draws"
 diff -rq docs/figures "$source/docs/figures" || fail "figures are not those of docs/make_figures.sh"
 
 echo "$ran commands of the documents ran"

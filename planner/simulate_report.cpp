@@ -179,7 +179,7 @@ std::string simulation_to_text(const HybridBody& body, const SimulateRecord& rec
                {body.contacts() == 2 ? fmt::format("{:.4g}", s.h[1]) : "-"},
                {fmt::format("{:.6g}", s.theta)}});
   }
-  out += table.print(false);
+  out += '\n' + table.print(false);
   if (rows.size() > most_rows) out += fmt::format("and {} lines more (in the JSON)\n", rows.size() - most_rows);
   if (record.omitted > 0) out += fmt::format("and {} events more, which were not kept\n", record.omitted);
   if (record.run.ambiguous > 0)

@@ -133,7 +133,7 @@ SampleReport sample_pushes(const SampleRequest& request) {
                                       {"undecided", count.outcome[3]},
                                       {"farthest_rest", count.farthest}};
   }
-  report.text += table.print(false);
+  report.text += '\n' + table.print(false);
   report.json = tree.dump(1) + "\n";
   return report;
 }

@@ -1,10 +1,10 @@
 #include "gaits/place_names.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <vector>
 
+#include "gaits/plan_heading.hpp"
 #include "terrain/back_faces.hpp"
 
 namespace surefoot::gaits {
@@ -16,25 +16,40 @@ using Eigen::Vector2d;
 constexpr double name_width = 30;  // [px] of either
 
 /// What letters cover [px] that stand on the middle of a line at `at`.
-AlignedBox2d letters(const Vector2d& at, double width) {
-  constexpr double height = 10;
+AlignedBox2d letters(const Vector2d& at, double width, double height) {
   return {at - Vector2d(width / 2, height), at + Vector2d(width / 2, 0)};
 }
 
-/// The waypoints of a row and their numbers [px].
-std::vector<AlignedBox2d> waypoint_boxes(const Plan& plan, const PageRow& row) {
-  constexpr double number_width = 18;
-  std::vector<AlignedBox2d> boxes;
-  for (const int k : row.stances) {
-    const Vector2d at = row.view(plan.stances[k].com);
-    boxes.emplace_back(at.array() - ring_radius, at.array() + ring_radius);
-    boxes.push_back(letters(at - Vector2d(0, number_above), number_width));
-  }
-  return boxes;
+AlignedBox2d name_box(const Vector2d& at) { return letters(at, name_width, 10); }
+
+bool is_free(const AlignedBox2d& box, const std::vector<AlignedBox2d>& taken) {
+  return std::none_of(taken.begin(), taken.end(), [&](const auto& other) { return other.intersects(box); });
 }
 
-bool is_free(const AlignedBox2d& name, const std::vector<AlignedBox2d>& taken) {
-  return std::none_of(taken.begin(), taken.end(), [&](const auto& box) { return box.intersects(name); });
+/// Of lines about a point the first that is free: above it, beneath, to the right, to the left.
+std::optional<Vector2d> free_line(const Vector2d& at, double above, double beneath, double aside, double width,
+                                  double height, const std::vector<AlignedBox2d>& taken) {
+  const double sideways = aside + width / 2, middle = height / 2;
+  for (const Vector2d& offset :
+       {Vector2d(0, -above), Vector2d(0, beneath), Vector2d(sideways, middle), Vector2d(-sideways, middle)})
+    if (is_free(letters(at + offset, width, height), taken)) return at + offset;
+  return std::nullopt;
+}
+
+/// Waypoints first, so that no number stands over one.
+void place_numbers(const Plan& plan, const PageRow& row, RowNames& names) {
+  constexpr double digit = 6.2, height = 8;             // [px]
+  constexpr double above = 8, beneath = 16, aside = 6;  // [px] from the waypoint
+  for (const int k : row.stances) {
+    const Vector2d at = row.view(plan.stances[k].com);
+    names.boxes.emplace_back(at.array() - dot_radius - 1, at.array() + dot_radius + 1);
+  }
+  for (const int k : row.stances) {
+    const double width = digit * static_cast<double>(number_of(plan, k).size());
+    const auto line = free_line(row.view(plan.stances[k].com), above, beneath, aside, width, height, names.boxes);
+    names.numbers.push_back(line);
+    if (line) names.boxes.push_back(letters(*line, width, height));
+  }
 }
 
 /// Lines [px] on which the name of the goal may stand, the best first.
@@ -70,36 +85,43 @@ Ground ground_at(const terrain::Terrain& terrain, const PageRow& row, const Alig
   return terrain.distance(metres(name.min().x()), metres(name.max().x()), near) < near ? Ground::crosses : Ground::none;
 }
 
-}  // namespace
-
-Vector2d start_name_place(const Plan& plan, const PageRow& row, const Vector2d& com) {
-  const std::vector<AlignedBox2d> taken = waypoint_boxes(plan, row);
-  const double aside = ring_radius + name_width / 2 + 2;
-  const std::array<Vector2d, 4> lines{com - Vector2d(0, start_above), com + Vector2d(0, start_above - 2),
-                                      com + Vector2d(-aside, 4), com + Vector2d(aside, 4)};
-  const auto* const best =
-      std::find_if(lines.begin(), lines.end(), [&](const auto& at) { return is_free(letters(at, name_width), taken); });
-  return best == lines.end() ? lines.front() : *best;
-}
-
-Vector2d goal_name_place(const Scene& scene, const Plan& plan, const PageRow& row, const AlignedBox2d& goal,
-                         const std::optional<Vector2d>& start) {
+Vector2d place_goal(const Scene& scene, const PageRow& row, const AlignedBox2d& goal,
+                    const std::vector<AlignedBox2d>& taken) {
   constexpr std::size_t many = 100'000;  // segments, of which each line asks all
   const std::vector<Vector2d> lines = lines_of(row, goal);
   if (scene.terrain.segments().size() > many) return lines.front();
-  std::vector<AlignedBox2d> taken = waypoint_boxes(plan, row);
-  if (start) taken.push_back(letters(*start, name_width));
   const AlignedBox2d page(row.view({row.window.min().x(), row.window.max().y()}),
                           row.view({row.window.max().x(), row.window.min().y()}));
   std::optional<Vector2d> second_best;
   for (const Vector2d& at : lines) {
-    const AlignedBox2d name = letters(at, name_width);
+    const AlignedBox2d name = name_box(at);
     const Ground ground = page.contains(name) ? ground_at(scene.terrain, row, name) : Ground::covers;
     if (ground == Ground::covers) continue;
     if (ground == Ground::none && is_free(name, taken)) return at;
     if (!second_best) second_best = at;
   }
   return second_best.value_or(lines.front());
+}
+
+}  // namespace
+
+std::string number_of(const Plan& plan, int k) { return k > 0 && k == plan.steps() ? "end" : std::to_string(k + 1); }
+
+RowNames name_places(const Scene& scene, const Plan& plan, const PageRow& row, const std::optional<Vector2d>& start,
+                     const AlignedBox2d& goal) {
+  constexpr double above = 22, beneath = 20, aside = 10;  // [px] from the waypoint; its number may stand between
+  RowNames names;
+  place_numbers(plan, row, names);
+  if (start) {
+    const auto line = free_line(*start, above, beneath, aside, name_width, 10, names.boxes);
+    names.start = line.value_or(*start - Vector2d(0, above));
+    names.boxes.push_back(name_box(*names.start));
+  }
+  if (!goal.isEmpty()) {
+    names.goal = place_goal(scene, row, goal, names.boxes);
+    names.boxes.push_back(name_box(*names.goal));
+  }
+  return names;
 }
 
 }  // namespace surefoot::gaits

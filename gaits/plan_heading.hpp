@@ -23,7 +23,6 @@ constexpr Paint com_dot{.fill = "#fff", .stroke = ink, .width = 1.4};
 constexpr Paint weak_line{.stroke = weak_colour, .width = 7};
 constexpr double dot_radius = 3.2, badge_radius = 6.5;  // [px]
 constexpr double ring_radius = dot_radius + 4;          // [px] about the weakest waypoint
-constexpr double number_above = 8, start_above = 22;    // [px] labels of a waypoint
 constexpr double heading_height = 116;                  // [px] what the page leaves free for it
 
 /// The number of a leg in a disk.

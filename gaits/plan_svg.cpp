@@ -25,20 +25,6 @@ constexpr Paint support_fill{.fill = support_colour, .opacity = 0.1};
 
 Paint leg_paint(int leg) { return {.stroke = leg_colour[leg], .width = 1.2, .opacity = 0.6}; }
 
-/// Keeps labels apart: a place is free if no other has been taken within `distance` pixels.
-class Places {
- public:
-  bool take(const Vector2d& at, double distance) {
-    for (const Vector2d& other : taken_)
-      if ((other - at).norm() < distance) return false;
-    taken_.push_back(at);
-    return true;
-  }
-
- private:
-  std::vector<Vector2d> taken_;
-};
-
 class PlanPicture {
  public:
   PlanPicture(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults, std::string title)
@@ -62,14 +48,14 @@ class PlanPicture {
     if (!goal.isEmpty()) draw_goal(row, goal, {.fill = goal_colour, .opacity = 0.3});
     for (const int k : row.stances) support(row, k);
     terrain_.draw_ground(canvas_, row.view, row.window);
-    if (!goal.isEmpty()) label_goal(row, goal);
+    RowNames names = name_places(scene_, plan_, row, start_in(row), goal);
+    if (names.goal) label_goal(row, goal, *names.goal);
     for (const int k : row.stances) stance(row, k);
     com_path(row);
     terrain_.draw_surface(canvas_, row.view, row.window);
-    Places places;
-    feet(row, places);
-    waypoints(row, places);
-    start(row);
+    feet(row, names.boxes);
+    waypoints(row, names.numbers);
+    if (names.start) canvas_.text(*names.start, "start", {.anchor = "middle", .bold = true, .halo = true});
     canvas_.close_group();
     axis(row);
   }
@@ -90,10 +76,9 @@ class PlanPicture {
   }
 
   /// Solid ground may hide the goal, but neither its name nor, where its height is given, its edges.
-  void label_goal(const PageRow& row, const Eigen::AlignedBox2d& goal) {
+  void label_goal(const PageRow& row, const Eigen::AlignedBox2d& goal, const Vector2d& name) {
     if (scene_.goal.com_y) draw_goal(row, goal, {.stroke = goal_colour, .width = 1.5});
-    canvas_.text(goal_name_place(scene_, plan_, row, goal, start_name(row)), "goal",
-                 {.colour = "#6b6400", .anchor = "middle", .bold = true});
+    canvas_.text(name, "goal", {.colour = "#6b6400", .anchor = "middle", .bold = true});
   }
 
   /// Where the COM can be: within reach of every planted foot (as a polygon of 32 corners for each).
@@ -149,7 +134,8 @@ class PlanPicture {
 
   /// A dot where a foot stands, and the number of the leg in the solid ground beneath; numbers that meet give way
   /// downwards.
-  void foot(const PageRow& row, const terrain::Foothold& foothold, int leg, bool start, Places& places) {
+  void foot(const PageRow& row, const terrain::Foothold& foothold, int leg, bool start,
+            std::vector<Eigen::AlignedBox2d>& taken) {
     const Vector2d at = row.view(foothold.position);
     const terrain::Segment* segment = terrain_.segment_of(foothold);
     const Vector2d inwards = segment ? Vector2d(-segment->normal.x(), segment->normal.y()) : Vector2d(0, 1);
@@ -159,16 +145,18 @@ class PlanPicture {
     constexpr int tries = 3;
     for (int k = 0; k < tries; ++k) {
       const Vector2d beneath = at + inwards * (badge_radius + 5 + k * (2 * badge_radius + 1));
-      if (!places.take(beneath, 2 * badge_radius)) continue;
+      const Eigen::AlignedBox2d badge(beneath.array() - badge_radius, beneath.array() + badge_radius);
+      if (std::any_of(taken.begin(), taken.end(), [&](const auto& box) { return box.intersects(badge); })) continue;
+      taken.push_back(badge);
       draw_badge(canvas_, beneath, leg);
       return;
     }
   }
 
-  void feet(const PageRow& row, Places& places) {
+  void feet(const PageRow& row, std::vector<Eigen::AlignedBox2d>& taken) {
     std::set<std::tuple<int, int, double>> drawn;
     const auto once = [&](const terrain::Foothold& foothold, int leg, bool start) {
-      if (drawn.emplace(leg, foothold.chain, foothold.s).second) foot(row, foothold, leg, start, places);
+      if (drawn.emplace(leg, foothold.chain, foothold.s).second) foot(row, foothold, leg, start, taken);
     };
     for (int leg = 0; leg < leg_count; ++leg)
       if (const auto& first = scene_.start.feet[leg]; first && row.window.contains(first->position))
@@ -191,43 +179,23 @@ class PlanPicture {
     return words;
   }
 
-  /// Where the number of a waypoint at `at` [px] stands: above it, or else beneath or beside it, over no other
-  /// waypoint.
-  std::optional<Vector2d> number_place(const PageRow& row, const Vector2d& at, Places& places) const {
-    constexpr double apart = 15, aside = 12, middle = 4;  // [px] of numbers; middle of its letters above their line
-    const auto covers = [&](const Vector2d& line) {
-      return std::any_of(row.stances.begin(), row.stances.end(), [&](int k) {
-        return (row.view(plan_.stances[k].com) - line + Vector2d(0, middle)).norm() < middle + dot_radius;
-      });
-    };
-    for (const Vector2d& offset : {Vector2d(0, -number_above), Vector2d(0, number_above + 2 * middle),
-                                   Vector2d(aside, middle), Vector2d(-aside, middle)})
-      if (!covers(at + offset) && places.take(at + offset, apart)) return at + offset;
-    return std::nullopt;
-  }
-
-  void waypoints(const PageRow& row, Places& places) {
-    for (const int k : row.stances) {
+  void waypoints(const PageRow& row, const std::vector<std::optional<Vector2d>>& numbers) {
+    for (std::size_t i = 0; i < row.stances.size(); ++i) {
+      const int k = row.stances[i];
       const Vector2d at = row.view(plan_.stances[k].com);
       const bool is_weakest = weakest_.bounded() && !weakest_.in_transfer && weakest_.index == k;
       if (is_weakest) canvas_.circle(at, ring_radius, {.fill = weak_colour});
       canvas_.circle(at, dot_radius, com_dot, tooltip(k));
-      if (const auto line = number_place(row, at, places))
-        canvas_.text(*line, k > 0 && k == plan_.steps() ? "end" : std::to_string(k + 1),
-                     {.size = 10, .anchor = "middle", .halo = true});
+      if (numbers[i]) canvas_.text(*numbers[i], number_of(plan_, k), {.size = 10, .anchor = "middle", .halo = true});
     }
   }
 
-  /// Where a row names the start [px].
-  std::optional<Vector2d> start_name(const PageRow& row) const {
+  /// Where a row draws the first COM [px].
+  std::optional<Vector2d> start_in(const PageRow& row) const {
     std::optional<Vector2d> at = scene_.start.com;
     if (!plan_.stances.empty()) at = plan_.stances.front().com;
     if (!at || &page_.rows[page_.row_of(at->x())] != &row) return std::nullopt;
-    return start_name_place(plan_, row, row.view(*at));
-  }
-
-  void start(const PageRow& row) {
-    if (const auto at = start_name(row)) canvas_.text(*at, "start", {.anchor = "middle", .bold = true, .halo = true});
+    return row.view(*at);
   }
 
   void axis(const PageRow& row) {

@@ -50,20 +50,20 @@ Polyline outside_of(const Polyline& closed, double far) {
   return closed_by(closed, {p - right - up, p - right + up, p + right + up, p + right - up, p - right - up});
 }
 
-/// Whether two straight lines cross, ends aside.
-bool cross(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const auto side = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& at) {
-    return (to - from).x() * (at - from).y() - (to - from).y() * (at - from).x();
-  };
-  return side(p, q, a) * side(p, q, b) < 0 && side(a, b, p) * side(a, b, q) < 0;
-}
-
-/// Whether what closes a chain (all corners behind its own) crosses it: then it is the solid of nothing.
-bool crosses_itself(const Polyline& solid, std::size_t chain_corners) {
-  for (std::size_t i = chain_corners - 1; i < solid.size(); ++i)
-    for (std::size_t k = 1; k < chain_corners; ++k)
-      if (cross(solid[i], solid[(i + 1) % solid.size()], solid[k - 1], solid[k])) return true;
-  return false;
+/// Whether a guess has the left of its chain outside, beside the middles of the chain's segments (an even choice of
+/// many). What closes the chain may cross it, and then it has not.
+bool keeps_left_free(const Polyline& guess, const Polyline& chain) {
+  constexpr std::size_t most_tests = 4'000'000, fewest = 8;  // of a corner
+  constexpr double beside = 1e-6;                            // of the segment's length
+  const std::size_t segments = chain.size() - 1;
+  const std::size_t count = std::min(segments, std::max(fewest, most_tests / guess.size()));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = i * segments / count;
+    const Eigen::Vector2d along = chain[k + 1] - chain[k], middle = chain[k] + along / 2;
+    const Eigen::Vector2d left = beside * Eigen::Vector2d(-along.y(), along.x());
+    if (contains(guess, middle + left)) return false;
+  }
+  return true;
 }
 
 /// What the solid to the right of a chain may be, the best guess first. A closed chain bounds it alone, and so does one
@@ -126,8 +126,7 @@ TerrainPicture::TerrainPicture(const terrain::Terrain& terrain) : terrain_(terra
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     Polyline& solid = solids_.emplace_back();
     for (Polyline& guess : solids_of(chains_[c], diagonals * terrain.bounds().diagonal().norm()))
-      if (solid.empty() && !crosses_itself(guess, chains_[c].size()) && !has_others_inside(guess, c))
-        solid = std::move(guess);
+      if (solid.empty() && keeps_left_free(guess, chains_[c]) && !has_others_inside(guess, c)) solid = std::move(guess);
   }
 }
 

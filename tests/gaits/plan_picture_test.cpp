@@ -332,6 +332,39 @@ TEST_CASE("the name of the goal covers neither a waypoint nor its labels", "[pla
     CHECK((other.right < goal.left || goal.right < other.left || other.below < goal.above || goal.below < other.above));
 }
 
+TEST_CASE("numbers, start and goal keep off each other and off waypoints that lie close", "[plan_svg]") {
+  Scene scene = scene_on(level_ground_and());
+  Plan plan = plan_by_hand(scene);
+  using Coms = std::pair<Eigen::Vector2d, Eigen::Vector2d>;  // of stances 2 and 3; stance 1 is at (0, 0.5)
+  const auto [second, third] =
+      GENERATE(Coms({0, 0.56}, {0.8, 0.5}), Coms({0, 0.53}, {0.8, 0.5}), Coms({0.02, 0.52}, {0.04, 0.54}),
+               Coms({0.4, 0.5}, {0.4, 0.55}), Coms({0.1, 0.5}, {0.05, 0.55}));
+  plan.stances[1].com = second;
+  plan.stances[2].com = third;
+  scene.goal.com_x = std::pair(third.x() - 0.05, third.x() + 0.05);
+  scene.goal.com_y = std::pair(0.3, third.y() + 0.03);
+  std::vector<Box> names, dots;
+  each_element(read_xml_text(to_svg(scene, plan)), [&](const std::string& name, const ptree& element) {
+    const auto at = [&](const char* key) { return element.get<double>(std::string("<xmlattr>.") + key); };
+    if (name == "circle" && element.count("title"))
+      dots.push_back({at("cx") - 3, at("cx") + 3, at("cy") - 3, at("cy") + 3});
+    const std::string words = name == "text" ? element.data() : "";
+    const bool number = (words == "1" || words == "2") && element.get("<xmlattr>.font-size", "") == "10";
+    if (number || words == "end") names.push_back(box_of_letters(at("x"), at("y"), number ? 6 : 16));
+    if ((words == "start" || words == "goal") && element.get("<xmlattr>.text-anchor", "") == "middle")
+      names.push_back(box_of_letters(at("x"), at("y"), 26));
+  });
+  REQUIRE(dots.size() == 3);
+  REQUIRE(names.size() >= 4);  // where there is no room a number is left out
+  const auto apart = [](const Box& l, const Box& r) {
+    return l.right < r.left || r.right < l.left || l.below < r.above || r.below < l.above;
+  };
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) CHECK(apart(names[i], names[k]));
+    for (const Box& dot : dots) CHECK(apart(names[i], dot));
+  }
+}
+
 TEST_CASE("the name of the goal keeps off that of the start, without a plan, too", "[plan_svg]") {
   Scene scene = scene_on(level_ground_and());
   scene.start.com = {-0.05, 0.5};

@@ -1,6 +1,7 @@
 // Which side of the terrain pictures show as solid, and how much of it.
 #include "gaits/terrain_picture.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "fixtures.hpp"
@@ -35,7 +36,7 @@ struct Case {
 }  // namespace
 
 TEST_CASE("pictures fill what is solid", "[plan_svg]") {
-  const std::vector<Case> cases{
+  std::vector<Case> cases{
       {{{{0, 4}, {0, 0}, {1, 0}, {1, 4}}}, {{-0.5, 2}, {1.5, 2}, {0.5, -0.5}}, {{0.5, 2}}},  // a chimney in one piece
       {{{{1, -4}, {1, 0}, {0, 0}, {0, -4}}}, {{-0.5, -2}, {1.5, -2}, {0.5, 0.5}}, {{0.5, -2}}},  // a shaft from below
       {{{{0, 1}, {0, 0}, {5, 0}, {5, 3}}}, {{-0.5, 0.5}, {5.5, 2}, {2, -0.5}}, {{2, 0.5}}},      // unequal walls
@@ -53,6 +54,17 @@ TEST_CASE("pictures fill what is solid", "[plan_svg]") {
       {{{{0.5, 1}, {0, 1}, {0, 0}, {1.5, 0}, {1.5, 1}, {1, 1}}}, {}, {{0.1, 0.5}, {1.4, 0.5}, {0.75, 0.5}}},
       {{{{-1, 0}, {6, 0}}, {{1, 0.5}, {2, 0.5}, {2, 1}, {1, 1}, {1, 0.5}}}, {{1, -0.5}}, {{1, 0.2}}},  // inside out
   };
+  // A cave whose roof ends exactly above a step, and above a vertex of level ground.
+  cases.push_back({{{{-1, 0}, {2, 0}, {2, -0.3}, {4, -0.3}, {4, 1.5}, {2, 1.5}}}, {}, {{3, 1}, {2.5, -0.2}, {0, 0.5}}});
+  cases.push_back({{{{-1, 0}, {2, 0}, {4, 0}, {4, 1.5}, {2, 1.5}}}, {}, {{3, 1}, {0, 0.5}}});
+  // A room, whichever corner it begins at.
+  std::vector<Vector2d> room{{-2, 0}, {4, 0}, {4, 1.5}, {-2, 1.5}};
+  for (int turn = 0; turn < 4; ++turn) {
+    std::rotate(room.begin(), room.begin() + 1, room.end());
+    std::vector<Vector2d> closed = room;
+    closed.push_back(room.front());
+    cases.push_back({{closed}, {{1, -0.5}, {1, 2}, {4.5, 1}, {-2.5, 1}}, {{1, 1}}});
+  }
   for (std::size_t k = 0; k < cases.size(); ++k) {
     CAPTURE(k);
     std::vector<surefoot::terrain::Chain> chains;

@@ -172,11 +172,17 @@ std::optional<int> solid_around(const Terrain& terrain, const Eigen::AlignedBox2
   const auto cuts = [&](const Segment& s) { return meets(area, s); };
   const auto& segments = terrain.segments();
   if (std::any_of(segments.begin(), segments.end(), cuts)) return std::nullopt;
-  const double far = 2 * terrain.bounds().extend(area).sizes().norm();
+  // As much of the area as lies near the terrain: a goal without a lower limit may be said to begin very far down.
+  const Eigen::AlignedBox2d bounds = terrain.bounds();
+  const Point near = Point::Constant(bounds.diagonal().norm() + bounds.exteriorDistance(area));
+  const Eigen::AlignedBox2d here = area.intersection({bounds.min() - near, bounds.max() + near});
+  const double far = 2 * terrain.bounds().extend(here).sizes().norm();
   std::optional<int> above_or_below;
-  const double aside = 1e-7 * far;  // [m] a ray that only grazes a vertex, level with it, would see its front
+  // A ray that only grazes a vertex would see its front: rays pass aside of vertices level with the middle, by far more
+  // than what `look` takes for the same distance.
+  const double aside = 100 * rounding * far;
   for (const Point& way : {Point(0, 1), Point(0, -1), Point(1, 0), Point(-1, 0)}) {
-    const Sight sight = look(terrain, area.center() + aside * Point(way.y(), way.x()), way, far, nullptr);
+    const Sight sight = look(terrain, here.center() + aside * Point(way.y(), way.x()), way, far, nullptr);
     if (sight.met == nullptr) continue;
     if (!sight.back) return std::nullopt;
     if (way.x() == 0 && !above_or_below) above_or_below = sight.met->chain;

@@ -38,7 +38,7 @@ constexpr std::array<std::array<std::string_view, 4>, 6> same_meaning{{
     {"normal", "n"},
     {"p", "position", "point"},
     {"vertices", "points"},
-    {"feet", "legs", "footholds"},
+    {"feet", "legs", "footholds", "foothold"},
 }};
 
 /// The names that mean the same as a word, itself among them; nullptr if it is not known.
@@ -75,7 +75,11 @@ std::string near_miss(std::string_view word, const std::vector<std::string>& can
 std::string other_name(std::string_view word, const std::vector<std::string>& keys) {
   const auto* const names = names_of(lower_case(std::string(word)));
   if (names == nullptr) return "";
-  const auto found = std::find_first_of(keys.begin(), keys.end(), names->begin(), names->end());
+  constexpr std::string_view only_asked = "foothold";  // a key with a meaning of its own
+  const auto named = [&](const std::string& key) {
+    return key != only_asked && std::find(names->begin(), names->end(), key) != names->end();
+  };
+  const auto found = std::find_if(keys.begin(), keys.end(), named);
   return found == keys.end() ? "" : *found;
 }
 

@@ -468,6 +468,9 @@ TEST_CASE("near misses are near", "[document]") {
   CHECK(key_meant("radius_of_gyration", {"com", "rho"}) == "rho");
   CHECK(key_meant("legs", {"com", "feet"}) == "feet");
   CHECK(key_meant("legs", {"leg", "foothold"}) == "leg");
+  CHECK(key_meant("foothold", {"feet", "support", "com"}) == "feet");
+  CHECK(key_meant("feet", {"friction", "foothold"}).empty());
+  CHECK(key_meant("footholds", {"friction", "foothold"}) == "foothold");
   CHECK(key_meant("rho", {"com", "feet"}).empty());
 }
 

@@ -98,14 +98,28 @@ Eigen::AlignedBox2d goal_box(const gaits::Scene& scene) {
   return {terrain::Point(left, low), terrain::Point(right, high)};
 }
 
+std::optional<int> inside_out(const gaits::Scene& scene) {
+  return terrain::obstacle_inside_out(scene.terrain, start_boxes(scene), goal_box(scene), too_low(scene.robot));
+}
+
+std::optional<terrain::BackFace> back_face(const gaits::Scene& scene) {
+  return terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max, start_boxes(scene), too_low(scene.robot));
+}
+
 std::string inside_out_remark(const gaits::Scene& scene) {
-  const auto chain =
-      terrain::obstacle_inside_out(scene.terrain, start_boxes(scene), goal_box(scene), too_low(scene.robot));
+  const auto chain = inside_out(scene);
   if (!chain) return "";
   return fmt::format(
       "the free side of chain {} is its inside, where the start does not lie: is it an obstacle given the wrong way "
       "round? {}",
       *chain, sides);
+}
+
+/// A chain that is remarked on as given the wrong way round.
+std::optional<int> wrong_way_chain(const gaits::Scene& scene) {
+  if (const auto chain = inside_out(scene)) return chain;
+  const auto seen = back_face(scene);
+  return seen ? std::optional(seen->chain) : std::nullopt;
 }
 
 /// A foot so far from the others that no COM reaches it and one of them.
@@ -157,9 +171,7 @@ std::string scene_remark(const gaits::Scene& scene) {
                        scene.robot.reach_max);
   if (std::string far_foot = far_foot_remark(scene); !far_foot.empty()) return far_foot;
   if (std::string inside_out = inside_out_remark(scene); !inside_out.empty()) return inside_out;
-  const double within = 2 * scene.robot.reach_max;
-  if (const auto seen = terrain::back_face_seen(scene.terrain, within, start_boxes(scene), too_low(scene.robot)))
-    return back_face_words(*seen);
+  if (const auto seen = back_face(scene)) return back_face_words(*seen);
   if (std::string upside_down = upside_down_remark(scene); !upside_down.empty()) return upside_down;
   return goal_remark(scene);
 }
@@ -174,14 +186,12 @@ std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& pl
   if (const auto chain = under ? terrain::solid_around(scene.terrain, Eigen::AlignedBox2d(com)) : std::nullopt)
     return fmt::format("the COM of stance {} lies behind chain {}, in what pictures show as solid ground",
                        seen->index + 1, *chain);
-  constexpr int with_sides = 3;  // segments
-  const bool has_sides =
-      std::ranges::count(scene.terrain.segments(), seen->chain, &terrain::Segment::chain) >= with_sides;
   return fmt::format(
       "the COM of stance {} looks at the back of chain {} at ({:.6g}, {:.6g}), so it is in what pictures show as "
       "solid: {}",
       seen->index + 1, seen->chain, seen->at.x(), seen->at.y(),
-      has_sides ? "is it given the wrong way round?" : "chains are lines without thickness, give a ceiling its sides");
+      wrong_way_chain(scene) == seen->chain ? "is it given the wrong way round?"
+                                            : "chains are lines without thickness, give a ceiling its sides");
 }
 
 }  // namespace surefoot::planner

@@ -93,6 +93,12 @@ TEST_CASE("Obstacles given the wrong way round and goals in solid ground are rem
   for (const std::string height : {"[-0.6, -0.4]", "[-0.51, -0.49]", "[-0.6, -0.41]"})
     CHECK_THAT(told(with("[[-1, 0], [4, 0]]", "[[-1, 0], [0.5, 0], [1, -0.5], [1.4, 0], [4, 0]]", with_height(height))),
                Catch::Contains("remark: the goal lies behind chain 0"));
+  // Beside the ground, and below its end; however far down the goal begins.
+  for (const std::string low : {"-10", "-1.0e+6"}) {
+    const auto goal = [&](const std::string& x) { return with("[1.5, 2]", x + ", com_y: [" + low + ", -0.5]"); };
+    CHECK_THAT(told(goal("[-1.2, -1.01]")), !Catch::Contains("remark"));
+    CHECK_THAT(told(goal("[3.8, 3.98]")), Catch::Contains("remark: the goal lies behind chain 0"));
+  }
   // The ordinary way to say that there is no lower limit.
   CHECK_THAT(told(with_height("[-100, 0.6]")), Catch::Contains("valid") && !Catch::Contains("remark"));
 }
@@ -128,20 +134,27 @@ TEST_CASE("A plan over a ceiling without sides is remarked on, plans of canned s
   // A plate 0.25 m over a gap, too low to go under it.
   place.write("plate.yaml", with("[[-1, 0], [4, 0]]",
                                  "[[-1, 0], [0.8, 0], [0.9, -0.6], [1.3, -0.6], [1.4, 0], [4, 0]]\n"
-                                 "    - vertices: [[1.3, 0.25], [0.9, 0.25]]\n      segments: {0: {foothold: false}}"));
+                                 "    - vertices: [[1.3, 0.25], [1.1, 0.25], [1, 0.25], [0.9, 0.25]]\n"
+                                 "      segments: {0: {foothold: false}, 1: {foothold: false}, 2: {foothold: false}}"));
   const auto run = place.run("plan plate.yaml --effort 0 -o plan.json");
   REQUIRE(run.status == 0);
   CHECK_THAT(run.err,
              Catch::Contains("looks at the back of chain 1 at (") && Catch::Contains("give a ceiling its sides\n"));
   CHECK_THAT(place.run("check plate.yaml plan.json").err, Catch::Contains("looks at the back of chain 1 at ("));
-  // Something that has sides has no need of them.
-  place.write("box.yaml", with("[[-1, 0], [4, 0]]",
-                               "[[-1, 0], [4, 0]]\n"
-                               "    - vertices: [[0.8, .05], [1.2, .05], [1.2, .15], [0.8, .15], [0.8, .05]]"));
-  const auto over = place.run("plan box.yaml --effort 0 -o plan.json");
-  REQUIRE(over.status == 0);
-  CHECK_THAT(over.err, Catch::Contains("looks at the back of chain 1 at (") &&
-                           Catch::Contains("as solid: is it given the wrong way round?\n"));
+  // The same of more pieces; an obstacle the wrong way round is no ceiling.
+  const auto told_of = [&](const std::string& vertices) {
+    place.write("over.yaml", with("[[-1, 0], [4, 0]]", "[[-1, 0], [4, 0]]\n    - vertices: " + vertices));
+    const auto over = place.run("plan over.yaml --effort 0 -o plan.json");
+    REQUIRE(over.status == 0);
+    const auto check = place.run("check over.yaml plan.json");
+    CHECK(over.err.find(check.err) != std::string::npos);  // the same remark
+    return check.err;
+  };
+  CHECK_THAT(told_of("[[.8, .05], [1.2, .05], [1.2, .15], [.8, .15], [.8, .05]]"),
+             Catch::Contains("looks at the back of chain 1 at (") &&
+                 Catch::Contains("as solid: is it given the wrong way round?\n"));
+  CHECK_THAT(told_of("[[1.2, .05], [1, .1], [.8, .05]]"),
+             Catch::Contains("as solid: is it given the wrong way round?\n"));
   for (const std::string name : {"chimney", "vee", "stairs_up", "ridge"})
     CHECK_THAT(place
                    .run("check " SUREFOOT_MAPS "/" + name + ".yaml " SUREFOOT_TESTS_DIR "/regression/golden/" + name +

@@ -38,14 +38,14 @@ std::optional<Vector2d> free_line(const Vector2d& at, double above, double benea
 
 /// Waypoints first, so that no number stands over one.
 void place_numbers(const Plan& plan, const PageRow& row, RowNames& names) {
-  constexpr double digit = 6.2, height = 8;             // [px]
+  constexpr double digit = 6.2, gap = 3, height = 8;    // [px]
   constexpr double above = 8, beneath = 16, aside = 6;  // [px] from the waypoint
   for (const int k : row.stances) {
     const Vector2d at = row.view(plan.stances[k].com);
     names.boxes.emplace_back(at.array() - dot_radius - 1, at.array() + dot_radius + 1);
   }
   for (const int k : row.stances) {
-    const double width = digit * static_cast<double>(number_of(plan, k).size());
+    const double width = digit * static_cast<double>(number_of(plan, k).size()) + gap;
     const auto line = free_line(row.view(plan.stances[k].com), above, beneath, aside, width, height, names.boxes);
     names.numbers.push_back(line);
     if (line) names.boxes.push_back(letters(*line, width, height));

@@ -50,11 +50,29 @@ Polyline outside_of(const Polyline& closed, double far) {
   return closed_by(closed, {p - right - up, p - right + up, p + right + up, p + right - up, p - right - up});
 }
 
+constexpr std::size_t most_tests = 4'000'000;  // of a corner, for one guess
+
+/// Whether two straight lines cross, ends aside.
+bool cross(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const auto side = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& at) {
+    return (to - from).x() * (at - from).y() - (to - from).y() * (at - from).x();
+  };
+  return side(p, q, a) * side(p, q, b) < 0 && side(a, b, p) * side(a, b, q) < 0;
+}
+
+/// Whether what closes a chain (all corners behind its own) crosses it.
+bool is_crossed(const Polyline& guess, const Polyline& chain) {
+  for (std::size_t i = chain.size() - 1; i < guess.size(); ++i)
+    for (std::size_t k = 1; k < chain.size(); ++k)
+      if (cross(guess[i], guess[(i + 1) % guess.size()], chain[k - 1], chain[k])) return true;
+  return false;
+}
+
 /// Whether a guess has the left of its chain outside, beside the middles of the chain's segments (an even choice of
-/// many). What closes the chain may cross it, and then it has not.
+/// many): what closes the chain may meet it at a vertex.
 bool keeps_left_free(const Polyline& guess, const Polyline& chain) {
-  constexpr std::size_t most_tests = 4'000'000, fewest = 8;  // of a corner
-  constexpr double beside = 1e-6;                            // of the segment's length
+  constexpr std::size_t fewest = 8;
+  constexpr double beside = 1e-6;  // of the segment's length
   const std::size_t segments = chain.size() - 1;
   const std::size_t count = std::min(segments, std::max(fewest, most_tests / guess.size()));
   for (std::size_t i = 0; i < count; ++i) {
@@ -124,17 +142,26 @@ TerrainPicture::TerrainPicture(const terrain::Terrain& terrain) : terrain_(terra
 
   constexpr double diagonals = 1000;  // as good as for ever: pictures show start and goal
   for (std::size_t c = 0; c < chains_.size(); ++c) {
-    Polyline& solid = solids_.emplace_back();
-    for (Polyline& guess : solids_of(chains_[c], diagonals * terrain.bounds().diagonal().norm()))
-      if (solid.empty() && keeps_left_free(guess, chains_[c]) && !has_others_inside(guess, c)) solid = std::move(guess);
+    const Polyline& chain = chains_[c];
+    const bool closed = chain.size() > 2 && chain.front() == chain.back();  // no guess
+    const auto holds = [&](const Polyline& guess) {
+      return (closed || (!is_crossed(guess, chain) && keeps_left_free(guess, chain))) && !has_others_inside(guess, c);
+    };
+    std::vector<Polyline> guesses = solids_of(chain, diagonals * terrain.bounds().diagonal().norm());
+    const auto best = std::find_if(guesses.begin(), guesses.end(), holds);
+    solids_.push_back(best == guesses.end() ? Polyline() : std::move(*best));
   }
 }
 
 bool TerrainPicture::has_others_inside(const Polyline& solid, std::size_t chain) const {
   const Eigen::AlignedBox2d box = bounds_of(solid);
+  std::vector<const Eigen::Vector2d*> near;
   for (std::size_t other = 0; other < chains_.size(); ++other)
     for (const auto& p : chains_[other])
-      if (other != chain && box.contains(p) && contains(solid, p)) return true;
+      if (other != chain && box.contains(p)) near.push_back(&p);
+  const std::size_t each = 1 + near.size() * solid.size() / most_tests;  // an even choice of many
+  for (std::size_t i = 0; i < near.size(); i += each)
+    if (contains(solid, *near[i])) return true;
   return false;
 }
 
@@ -158,16 +185,17 @@ void TerrainPicture::draw_ground(SvgCanvas& canvas, const View& view, const Eige
 }
 
 void TerrainPicture::hatch(SvgCanvas& canvas, const View& view, const Eigen::AlignedBox2d& window, int chain) const {
-  constexpr double spacing = 8, depth = 8;  // [px]
+  constexpr double spacing = 8, depth = 8, most = 1e4;  // [px], [px], ticks of a segment
+  double next = 0.7 * spacing;                          // [px] along the segment, from its begin
   for (std::size_t i = chain_begin_[chain]; i < chain_begin_[chain + 1]; ++i) {
     const Segment& segment = terrain_.segments()[i];
-    if (!shows(segment, window)) continue;
+    const double length = segment.length * view.scale, step = std::max(spacing, length / most);
     const Eigen::Vector2d slant = (-segment.normal - segment.tangent) * (depth / view.scale);
-    const int ticks = static_cast<int>(std::min(1e4, segment.length * view.scale / spacing));
-    for (int k = 0; k < ticks; ++k) {
-      const Eigen::Vector2d foot = segment.a + segment.tangent * (segment.length * (k + 0.7) / std::max(1, ticks));
+    for (; next < length; next += step) {
+      const Eigen::Vector2d foot = segment.a + segment.tangent * (next / view.scale);
       if (window.contains(foot)) canvas.line(view(foot), view(foot + slant), hatching);
     }
+    next -= length;
   }
 }
 

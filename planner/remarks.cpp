@@ -115,11 +115,17 @@ std::string inside_out_remark(const gaits::Scene& scene) {
       *chain, sides);
 }
 
-/// A chain that is remarked on as given the wrong way round.
-std::optional<int> wrong_way_chain(const gaits::Scene& scene) {
-  if (const auto chain = inside_out(scene)) return chain;
+/// Whether a chain whose back is seen is given the wrong way round, rather than a ceiling without sides: it is closed,
+/// has walls at both ends, or is remarked on.
+bool is_wrong_way(const gaits::Scene& scene, int chain) {
+  constexpr double steep = 0.7;  // |n_x| of a wall
+  const terrain::Terrain& ground = scene.terrain;
+  const auto& segments = ground.segments();
+  const auto of_chain = std::ranges::equal_range(segments, chain, {}, &terrain::Segment::chain);
+  const auto is_wall = [](const terrain::Segment& segment) { return std::abs(segment.normal.x()) > steep; };
+  if (ground.is_closed(chain) || (is_wall(of_chain.front()) && is_wall(of_chain.back()))) return true;
   const auto seen = back_face(scene);
-  return seen ? std::optional(seen->chain) : std::nullopt;
+  return inside_out(scene) == chain || (seen && seen->chain == chain);
 }
 
 /// A foot so far from the others that no COM reaches it and one of them.
@@ -190,8 +196,8 @@ std::string behind_chain_remark(const gaits::Scene& scene, const gaits::Plan& pl
       "the COM of stance {} looks at the back of chain {} at ({:.6g}, {:.6g}), so it is in what pictures show as "
       "solid: {}",
       seen->index + 1, seen->chain, seen->at.x(), seen->at.y(),
-      wrong_way_chain(scene) == seen->chain ? "is it given the wrong way round?"
-                                            : "chains are lines without thickness, give a ceiling its sides");
+      is_wrong_way(scene, seen->chain) ? "is it given the wrong way round?"
+                                       : "chains are lines without thickness, give a ceiling its sides");
 }
 
 }  // namespace surefoot::planner

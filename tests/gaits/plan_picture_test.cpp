@@ -350,7 +350,7 @@ TEST_CASE("numbers, start and goal keep off each other and off waypoints that li
       dots.push_back({at("cx") - 3, at("cx") + 3, at("cy") - 3, at("cy") + 3});
     const std::string words = name == "text" ? element.data() : "";
     const bool number = (words == "1" || words == "2") && element.get("<xmlattr>.font-size", "") == "10";
-    if (number || words == "end") names.push_back(box_of_letters(at("x"), at("y"), number ? 6 : 16));
+    if (number || words == "end") names.push_back(box_of_letters(at("x"), at("y"), number ? 8 : 20));  // with a gap
     if ((words == "start" || words == "goal") && element.get("<xmlattr>.text-anchor", "") == "middle")
       names.push_back(box_of_letters(at("x"), at("y"), 26));
   });

@@ -57,6 +57,12 @@ TEST_CASE("pictures fill what is solid", "[plan_svg]") {
   // A cave whose roof ends exactly above a step, and above a vertex of level ground.
   cases.push_back({{{{-1, 0}, {2, 0}, {2, -0.3}, {4, -0.3}, {4, 1.5}, {2, 1.5}}}, {}, {{3, 1}, {2.5, -0.2}, {0, 0.5}}});
   cases.push_back({{{{-1, 0}, {2, 0}, {4, 0}, {4, 1.5}, {2, 1.5}}}, {}, {{3, 1}, {0, 0.5}}});
+  // A wedge that reaches farther left than the chain begins; a cave at the end of very many segments.
+  cases.push_back({{{{0, 2}, {4, 2}, {4, 1.6}, {-3, 0}, {9, 0}}}, {}, {{-1, 0.2}, {1, 0.5}, {2, 3}}});
+  std::vector<Vector2d> fine;
+  for (int i = 0; i < 5000; ++i) fine.emplace_back(-1 + 1e-3 * i, 0);
+  fine.insert(fine.end(), {{5, 0}, {5, 1.5}, {3, 1.5}});
+  cases.push_back({{fine}, {}, {{4, 1}, {0, 0.5}}});
   // A room, whichever corner it begins at.
   std::vector<Vector2d> room{{-2, 0}, {4, 0}, {4, 1.5}, {-2, 1.5}};
   for (int turn = 0; turn < 4; ++turn) {

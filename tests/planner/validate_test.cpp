@@ -153,6 +153,11 @@ TEST_CASE("A plan over a ceiling without sides is remarked on, plans of canned s
   CHECK_THAT(told_of("[[.8, .05], [1.2, .05], [1.2, .15], [.8, .15], [.8, .05]]"),
              Catch::Contains("looks at the back of chain 1 at (") &&
                  Catch::Contains("as solid: is it given the wrong way round?\n"));
+  // The second of two, and one too high over the ground to be an obstacle.
+  const std::string far = "[[-.9, .05], [-.8, .05], [-.8, .1], [-.9, .1], [-.9, .05]]\n    - vertices: ";
+  for (const std::string& vertices : {far + "[[.8, .05], [1.2, .05], [1.2, .15], [.8, .15], [.8, .05]]",
+                                      std::string("[[1.2, .24], [1.2, .28], [.8, .28], [.8, .24]]")})
+    CHECK_THAT(told_of(vertices), Catch::Contains("as solid: is it given the wrong way round?\n"));
   CHECK_THAT(told_of("[[1.2, .05], [1, .1], [.8, .05]]"),
              Catch::Contains("as solid: is it given the wrong way round?\n"));
   for (const std::string name : {"chimney", "vee", "stairs_up", "ridge"})

@@ -119,11 +119,12 @@ std::string inside_out_remark(const gaits::Scene& scene) {
 /// has walls at both ends, or is remarked on.
 bool is_wrong_way(const gaits::Scene& scene, int chain) {
   constexpr double steep = 0.7;  // |n_x| of a wall
-  const terrain::Terrain& ground = scene.terrain;
-  const auto& segments = ground.segments();
-  const auto of_chain = std::ranges::equal_range(segments, chain, {}, &terrain::Segment::chain);
+  const auto& segments = scene.terrain.segments();
+  const auto in_chain = [chain](const terrain::Segment& segment) { return segment.chain == chain; };
   const auto is_wall = [](const terrain::Segment& segment) { return std::abs(segment.normal.x()) > steep; };
-  if (ground.is_closed(chain) || (is_wall(of_chain.front()) && is_wall(of_chain.back()))) return true;
+  const auto first = std::find_if(segments.begin(), segments.end(), in_chain);
+  const auto last = std::find_if(segments.rbegin(), segments.rend(), in_chain);
+  if (scene.terrain.is_closed(chain) || (is_wall(*first) && is_wall(*last))) return true;
   const auto seen = back_face(scene);
   return inside_out(scene) == chain || (seen && seen->chain == chain);
 }

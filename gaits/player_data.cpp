@@ -127,7 +127,7 @@ class PlayerData {
     AlignedBox2d window(contacts[0].position - reach, contacts[0].position + reach);
     for (const auto& contact : contacts)
       window = window.intersection(AlignedBox2d(contact.position - reach, contact.position + reach));
-    if (window.isEmpty()) return rings;
+    if (!(window.sizes().array() > 0).all()) return rings;  // of feet two reaches apart a point is left
     if (!all_modes) {
       const stability::RobustOracle oracle(contacts, scene_.robot.radius_of_gyration, scene_.disturbance);
       const Polyline polygon =

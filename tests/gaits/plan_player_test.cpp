@@ -199,6 +199,16 @@ TEST_CASE("odd plans make a page too", "[plan_player]") {
   REQUIRE_THROWS_AS(to_html(scene, plan), std::invalid_argument);
 }
 
+TEST_CASE("feet exactly two reaches apart leave a point for the COM, and no region", "[plan_player]") {
+  const Scene scene = scene_on(level_ground_and());  // criterion robust
+  Plan plan = plan_by_hand(scene);
+  plan.stances[0].feet[0]->position = {0, 0};
+  plan.stances[0].feet[1]->position = {2 * scene.robot.reach_max, 0};
+  const json data = json::parse(data_text(to_html(scene, plan)));
+  CHECK(data["stances"][0]["region"].empty());
+  CHECK_FALSE(data["stances"][1]["region"].empty());
+}
+
 TEST_CASE("of long terrain the page holds what may be seen", "[plan_player]") {
   std::vector<surefoot::terrain::Point> vertices;
   for (int k = -20000; k <= 20000; ++k) vertices.emplace_back(k, 0);

@@ -13,14 +13,14 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
-constexpr double name_width = 30;  // [px] of either
+constexpr double name_width = 30, name_height = 10;  // [px] of either
 
 /// What letters cover [px] that stand on the middle of a line at `at`.
 AlignedBox2d letters(const Vector2d& at, double width, double height) {
   return {at - Vector2d(width / 2, height), at + Vector2d(width / 2, 0)};
 }
 
-AlignedBox2d name_box(const Vector2d& at) { return letters(at, name_width, 10); }
+AlignedBox2d name_box(const Vector2d& at) { return letters(at, name_width, name_height); }
 
 bool is_free(const AlignedBox2d& box, const std::vector<AlignedBox2d>& taken) {
   return std::none_of(taken.begin(), taken.end(), [&](const auto& other) { return other.intersects(box); });
@@ -113,7 +113,7 @@ RowNames name_places(const Scene& scene, const Plan& plan, const PageRow& row, c
   RowNames names;
   place_numbers(plan, row, names);
   if (start) {
-    const auto line = free_line(*start, above, beneath, aside, name_width, 10, names.boxes);
+    const auto line = free_line(*start, above, beneath, aside, name_width, name_height, names.boxes);
     names.start = line.value_or(*start - Vector2d(0, above));
     names.boxes.push_back(name_box(*names.start));
   }

@@ -40,13 +40,14 @@ AlignedBox2d ground_between(const Scene& scene, double x_from, double x_to) {
   return box;
 }
 
-/// Raises the box to the lowest ceiling above it that the COMs in it may reach; without any, the feet's COMs.
+/// Raises the box to the lowest level terrain above it (a ceiling, or one the wrong way round) that the COMs in it may
+/// reach; without any, the feet's COMs.
 void show_ceiling(AlignedBox2d& box, const Scene& scene, const Plan& plan, double x_from, double x_to) {
   double lowest = box.max().y() + (plan.stances.empty() ? 2 : 1) * scene.robot.reach_max;
   bool found = false;
   for (const auto& segment : scene.terrain.segments()) {
     const double first = std::min(segment.a.x(), segment.b.x()), last = std::max(segment.a.x(), segment.b.x());
-    if (first > x_to || last < x_from || !(segment.normal.y() < -level)) continue;
+    if (first > x_to || last < x_from || std::abs(segment.normal.y()) < level) continue;
     const auto height = [&](double x) {
       return segment.a.y() + (x - segment.a.x()) / (segment.b.x() - segment.a.x()) * (segment.b.y() - segment.a.y());
     };

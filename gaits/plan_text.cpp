@@ -178,7 +178,8 @@ class Report {
                                             reached.foothold_spacing, reached.com_columns);
     if (plan_.steps() <= reached.least_steps) return "No plan has fewer steps: reach alone forbids it.\n";
     return fmt::format("{} {}; whatever the lattice, {} step{} at least.\n",
-                       reached.fewest_on_lattice ? "No plan of fewer steps on" : "Searched, not to the end, on",
+                       reached.fewest_on_lattice ? "No plan of fewer steps on"
+                                                 : "Fewer steps are not ruled out: searched on",
                        lattice, reached.least_steps, reached.least_steps == 1 ? "" : "s");
   }
 

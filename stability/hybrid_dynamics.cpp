@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "stability/given.hpp"
 #include "stability/hybrid_impact.hpp"
@@ -34,6 +35,7 @@ class Run {
       else if (!(body_.excursion(state_) <= options_.neighbourhood)) end(left);  // so do numbers that overflow
       else if (!impacts()) none_closed() ? fly() : move();
     }
+    measure();
     run_.state = state_;
     run_.time = time_;
     return run_;
@@ -64,9 +66,11 @@ class Run {
     time_ = sum;
   }
 
+  void measure() { run_.greatest_excursion = std::max(run_.greatest_excursion, body_.excursion(state_)); }
+
   void tell(Kind kind, int contact, double speed = 0, double duration = 0, const ModeChoice* choice = nullptr) {
     speed_ = std::max(speed_, body_.speed(state_));
-    run_.greatest_excursion = std::max(run_.greatest_excursion, body_.excursion(state_));
+    measure();
     const double energy = body_.energy(state_);
     run_.energy_growth = std::max(run_.energy_growth, energy - energy_);
     energy_ = energy;
@@ -155,9 +159,11 @@ class Run {
       const double s = time_to_contact(body_, state_, i, horizon);
       if (s < soonest) soonest = s, next = i;
     }
-    if (next < 0 && time_ + horizon < options_.time_limit) {
-      leave(horizon);
-      return;
+    if (const auto out = time_to_leave(soonest)) {
+      body_.fly(state_, *out);
+      pass(*out);
+      tell(Kind::sample, 0);
+      return end(HybridRun::Outcome::left);
     }
     body_.fly(state_, soonest);
     pass(soonest);
@@ -168,19 +174,39 @@ class Run {
     }
   }
 
-  /// In flight until the neighbourhood is left.
-  void leave(double horizon) {
-    double low = 0, high = horizon;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (low + high);
+  /// Greater than any displacement in a flight of that duration.
+  double farthest_in_flight(double duration) const {
+    const double g = body_.gravity(), up = state_.v.y();
+    const double rise = up > 0 ? up * up / (2 * g) : 0, fall = (0.5 * g * duration - up) * duration;
+    double arm = 0;
+    for (int i = 0; i < body_.contacts(); ++i) arm = std::max(arm, body_.arm(i, state_.theta).norm());
+    return body_.excursion(state_) + std::max(rise, fall) +
+           (std::abs(state_.v.x()) + arm * std::abs(state_.omega)) * duration;
+  }
+
+  /// When the body leaves the neighbourhood in a flight of that duration, if it does: it may come back before the end.
+  /// Looked for at moments near each other: it turns by a quarter of a radian at most in between, unless it spins
+  /// more than 1000 rad.
+  std::optional<double> time_to_leave(double duration) const {
+    if (farthest_in_flight(duration) <= options_.neighbourhood) return std::nullopt;
+    const auto is_out = [&](double s) {
       BodyState there = state_;
-      body_.fly(there, middle);
-      (body_.excursion(there) > options_.neighbourhood ? high : low) = middle;
+      body_.fly(there, s);
+      return !(body_.excursion(there) <= options_.neighbourhood);  // so are numbers that overflow
+    };
+    constexpr int halvings = 60;
+    constexpr double fewest = 64, most = 4096;
+    const int looks = static_cast<int>(std::min(most, fewest + 4 * std::abs(state_.omega) * duration));
+    for (int k = 1; k <= looks; ++k) {
+      double low = duration * (k - 1) / looks, high = duration * k / looks;
+      if (!is_out(high)) continue;
+      for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        (is_out(middle) ? high : low) = middle;
+      }
+      return high;
     }
-    body_.fly(state_, high);
-    pass(high);
-    tell(Kind::sample, 0);
-    end(HybridRun::Outcome::left);
+    return std::nullopt;
   }
 
   bool still() const { return state_.v.isZero(0) && state_.omega == 0; }

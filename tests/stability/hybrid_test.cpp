@@ -290,6 +290,25 @@ TEST_CASE("A turn about a rolling foot keeps its energy until the other foot com
   CHECK(before == Approx(body.energy(start)).epsilon(1e-11));
 }
 
+TEST_CASE("A body thrown up leaves its neighbourhood at the height of it, also if it would fall back", "[hybrid]") {
+  const auto contacts = feet(0, 0, 0.5);
+  const HybridBody body(contacts, {0, 0.3}, 0.3, g);
+  const double speed = 3, apex = speed * speed / (2 * g);
+  const BodyState start = body.state_at({0, 0, 0}, {0, speed, 0});
+  HybridOptions options;
+  options.restitution = 0.1;
+  for (const double height : {0.01, 0.3, 0.999 * apex}) {
+    options.neighbourhood = height;
+    const HybridRun run = simulate(body, start, options);
+    INFO("neighbourhood " << height);
+    CHECK(run.outcome == HybridRun::Outcome::left);
+    CHECK(run.time == Approx((speed - std::sqrt(speed * speed - 2 * g * height)) / g).epsilon(1e-6));
+    CHECK(run.greatest_excursion == Approx(height).epsilon(1e-12));
+  }
+  options.neighbourhood = 1.001 * apex;
+  CHECK(simulate(body, start, options).outcome == HybridRun::Outcome::rest);
+}
+
 TEST_CASE("Linearised and nonlinear runs agree to the order of the push", "[hybrid]") {
   const auto contacts = feet(0.3, -0.2, 0.5);
   const HybridBody exact(contacts, {0.02, 0.1}, 0.15, g), linear(contacts, {0.02, 0.1}, 0.15, g, true);

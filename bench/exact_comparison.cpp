@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
   Comparison comparison(seed);
   if (random > 0) comparison.add("points", PointKind::random, random);
   add_shares(comparison, "points", adversarial_kinds, std::array{20, 30, 10, 10, 5, 15, 10}, adversarial);
-  add_shares(comparison, "lines", line_kinds, std::array{40, 20, 15, 10, 10, 5}, lines);
+  add_shares(comparison, "lines", line_kinds, std::array{35, 20, 15, 10, 10, 5, 5}, lines);
   const ComparisonCounts all = comparison.run(threads);
   comparison.print();
   return all.differences == 0 ? 0 : 1;

@@ -25,6 +25,16 @@ constexpr Paint support_fill{.fill = support_colour, .opacity = 0.1};
 
 Paint leg_paint(int leg) { return {.stroke = leg_colour[leg], .width = 1.2, .opacity = 0.6}; }
 
+/// With as many digits as tell ticks apart, up to the farthest one.
+std::string tick_label(double x, double step, double farthest) {
+  constexpr int most_decimals = 9;
+  constexpr double too_long = 1e7;  // [m]
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  if (decimals <= most_decimals && farthest < too_long) return fmt::format("{:.{}f} m", x, decimals);
+  const int digits = static_cast<int>(std::clamp(std::log10(farthest / step) + 2, 1.0, 17.0));
+  return fmt::format("{:.{}g} m", x, digits);
+}
+
 class PlanPicture {
  public:
   PlanPicture(const Scene& scene, const Plan& plan, const std::vector<std::string>& faults, std::string title)
@@ -200,17 +210,17 @@ class PlanPicture {
 
   void axis(const PageRow& row) {
     const double step = round_length(200 / page_.scale);
-    const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+    const double first = std::ceil(row.window.min().x() / step), last = row.window.max().x();
+    const double farthest = std::max(std::abs(row.window.min().x()), std::abs(last));
     const double y = row.bottom() + 4;
     const Paint tick{.stroke = faint, .width = 1};
     canvas_.line({row.view(row.window.min()).x(), y}, {row.view(row.window.max()).x(), y}, tick);
-    const double first = std::ceil(row.window.min().x() / step), last = row.window.max().x();
     constexpr int most_ticks = 100;  // a page has room for fewer; so far away that k + 1 is k the last does not come
     for (int i = 0; i < most_ticks && (first + i) * step <= last; ++i) {
       const double k = first + i;
       const double x = row.view({k * step, 0}).x();
       canvas_.line({x, y}, {x, y + 4}, tick);
-      canvas_.text({x, y + 15}, fmt::format("{:.{}f} m", k == 0 ? 0 : k * step, decimals),
+      canvas_.text({x, y + 15}, tick_label(k == 0 ? 0 : k * step, step, farthest),
                    {.size = 10, .colour = faint, .anchor = "middle"});
     }
   }

@@ -35,8 +35,7 @@ std::string or_dash(const std::string& text) { return text.empty() ? "-" : print
 class Report {
  public:
   Report(const Scene& scene, const Plan& plan, const TextOptions& options)
-      : scene_(scene), plan_(plan), options_(options), least_(weakest_place(plan)),
-        decimals_(decimals_for(scene.robot.reach_max)) {}
+      : scene_(scene), plan_(plan), options_(options), least_(weakest_place(plan)) {}
 
   std::string print() const {
     std::string text = heading();
@@ -69,16 +68,17 @@ class Report {
     return text.starts_with(status + " ") ? text.substr(status.size()) : " - " + text;
   }
 
+  std::string length(double metres) const { return length_in_words(metres, scene_.robot.reach_max); }
+
   std::string point(const Eigen::Vector2d& p) const {
-    return fmt::format("{:>{}} {:>{}}", fmt::format("{:.{}f}", p.x(), decimals_), x_width(),
-                       fmt::format("{:.{}f}", p.y(), decimals_), x_width());
+    return fmt::format("{:>{}} {:>{}}", length(p.x()), x_width(), length(p.y()), x_width());
   }
 
   /// One width for all coordinates of the plan keeps the points of a column aligned.
   std::size_t x_width() const {
     if (width_ > 0) return width_;
     const auto fit = [&](const Eigen::Vector2d& p) {
-      for (const double v : {p.x(), p.y()}) width_ = std::max(width_, fmt::format("{:.{}f}", v, decimals_).size());
+      for (const double v : {p.x(), p.y()}) width_ = std::max(width_, length(v).size());
     };
     const auto fit_feet = [&](const Feet& feet) {
       for (const auto& foot : feet)
@@ -158,8 +158,8 @@ class Report {
       double travelled = 0;
       for (std::size_t k = 1; k < plan_.stances.size(); ++k)
         travelled += (plan_.stances[k].com - plan_.stances[k - 1].com).norm();
-      text += fmt::format("{} step{}, COM travels {:.{}f} m, least safety factor {}", plan_.steps(),
-                          plan_.steps() == 1 ? "" : "s", travelled, decimals_,
+      text += fmt::format("{} step{}, COM travels {} m, least safety factor {}", plan_.steps(),
+                          plan_.steps() == 1 ? "" : "s", length(travelled),
                           paint(factor_in_words(plan_.safety_factor), bold, options_.colour));
       text += where();
       if (plan_.safety_factor_before_refinement)
@@ -251,7 +251,6 @@ class Report {
   const Plan& plan_;
   const TextOptions& options_;
   WeakestPlace least_;
-  int decimals_;
   mutable std::size_t width_ = 0;
 };
 

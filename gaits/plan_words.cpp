@@ -60,7 +60,7 @@ std::string place_in_words(const WeakestPlace& place, int steps) {
 }
 
 std::string limit_in_words(const std::string& limit, const std::vector<int>& legs) {
-  if (limit == "none") return "no disturbance, however large, is too much";
+  if (limit == "none") return "no multiple of kappa and nu is too much";
   if (limit == "equilibrium") return "the feet cannot balance a larger disturbance";
   if (limit.size() != legs.size()) return limit;
   std::vector<std::pair<char, std::vector<int>>> groups;  // legs by state, in order of appearance
@@ -92,9 +92,19 @@ std::string factor_in_words(double sigma) {
 }
 
 int decimals_for(double reach) {
-  constexpr int millimetres = 3, most = 12;
-  if (!(reach > 0)) return millimetres;
-  return std::clamp(2 - static_cast<int>(std::floor(std::log10(reach))), millimetres, most);
+  constexpr int millimetres = 3;
+  return reach > 0 ? std::max(2 - static_cast<int>(std::floor(std::log10(reach))), millimetres) : millimetres;
+}
+
+bool is_told_in_decimals(double reach) {
+  constexpr int most = 9;
+  constexpr double giant = 1e6;  // [m]
+  return decimals_for(reach) <= most && reach < giant;
+}
+
+std::string length_in_words(double length, double reach) {
+  return is_told_in_decimals(reach) ? fmt::format("{:.{}f}", length, decimals_for(reach))
+                                    : fmt::format("{:.6g}", length);
 }
 
 std::vector<int> planted_legs(const Feet& feet) {

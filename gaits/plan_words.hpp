@@ -36,6 +36,10 @@ std::string factor_in_words(double sigma);
 /// of its reach.
 int decimals_for(double reach);
 
+/// Whether lengths [m] are told with that many decimals; those of tiny and of giant robots with six significant digits.
+bool is_told_in_decimals(double reach);
+std::string length_in_words(double length, double reach);
+
 /// Legs (0..2) that stand, in increasing order.
 std::vector<int> planted_legs(const Feet& feet);
 

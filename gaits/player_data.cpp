@@ -35,7 +35,7 @@ class PlayerData {
     tree["plan"] = tree_of(plan_);
     tree["plan"].erase("time_s");  // the same plan gives the same page
     tree["title"] = title_of(plan_, !faults.empty());
-    tree["decimals"] = decimals_;
+    if (is_told_in_decimals(scene_.robot.reach_max)) tree["decimals"] = decimals_;
     tree["scene"] = scene();
     tree["weakest"] = weakest();
     tree["stances"] = Tree::array();

@@ -85,6 +85,10 @@ Robot drawn_in(const Robot& robot) {
   return inner;
 }
 
+stability::DisturbanceBox widened(const stability::DisturbanceBox& box) {
+  return {(1 + limit_margin) * box.kappa, (1 + limit_margin) * box.nu};
+}
+
 // Distance to a fixed foot is convex along the line: it is greatest at an end.
 bool within_reach(const Robot& robot, const Vector2d& foot, const Vector2d& from, const Vector2d& to) {
   const double slack = limit_slack * robot.reach_max;

@@ -42,6 +42,10 @@ constexpr double limit_margin = 1e-9;
 /// The robot with reach and clearance narrowed by limit_margin: choose COMs for this one.
 Robot drawn_in(const Robot& robot);
 
+/// Disturbances a little larger than those given, which whoever chooses COMs should have them withstand: at a safety
+/// factor of exactly 1 (friction kappa) nothing is left.
+stability::DisturbanceBox widened(const stability::DisturbanceBox& box);
+
 /// A planted foot is within reach at every COM of the straight line from -> to.
 bool within_reach(const Robot& robot, const Eigen::Vector2d& foot, const Eigen::Vector2d& from,
                   const Eigen::Vector2d& to);

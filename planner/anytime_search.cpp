@@ -92,7 +92,7 @@ bool AnytimeSearch::begin(double scale) {
 }
 
 stability::DisturbanceBox AnytimeSearch::box() const {
-  stability::DisturbanceBox box = proposals_->scene().disturbance;
+  stability::DisturbanceBox box = proposals_->box();
   box.kappa *= scale_, box.nu *= scale_;
   return box;
 }

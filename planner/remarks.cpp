@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -98,8 +99,8 @@ Eigen::AlignedBox2d goal_box(const gaits::Scene& scene) {
   return {terrain::Point(left, low), terrain::Point(right, high)};
 }
 
-std::optional<int> inside_out(const gaits::Scene& scene) {
-  return terrain::obstacle_inside_out(scene.terrain, start_boxes(scene), goal_box(scene), too_low(scene.robot));
+std::vector<int> inside_out(const gaits::Scene& scene) {
+  return terrain::obstacles_inside_out(scene.terrain, start_boxes(scene), goal_box(scene), too_low(scene.robot));
 }
 
 std::optional<terrain::BackFace> back_face(const gaits::Scene& scene) {
@@ -107,12 +108,20 @@ std::optional<terrain::BackFace> back_face(const gaits::Scene& scene) {
 }
 
 std::string inside_out_remark(const gaits::Scene& scene) {
-  const auto chain = inside_out(scene);
-  if (!chain) return "";
+  constexpr std::size_t most_named = 8;
+  const std::vector<int> chains = inside_out(scene);
+  if (chains.empty()) return "";
+  if (chains.size() == 1)
+    return fmt::format(
+        "the free side of chain {} is its inside, where the start does not lie: is it an obstacle given the wrong way "
+        "round? {}",
+        chains.front(), sides);
+  const auto named = std::span(chains).first(std::min(chains.size(), most_named));
   return fmt::format(
-      "the free side of chain {} is its inside, where the start does not lie: is it an obstacle given the wrong way "
-      "round? {}",
-      *chain, sides);
+      "the free sides of chains {}{} are their insides, where the start does not lie: are they obstacles given the "
+      "wrong way round? {}",
+      fmt::join(named, ", "),
+      chains.size() > named.size() ? fmt::format(" and {} more", chains.size() - named.size()) : "", sides);
 }
 
 /// Whether a chain whose back is seen is given the wrong way round, rather than a ceiling without sides: it is closed,
@@ -126,7 +135,8 @@ bool is_wrong_way(const gaits::Scene& scene, int chain) {
   const auto last = std::find_if(segments.rbegin(), segments.rend(), in_chain);
   if (scene.terrain.is_closed(chain) || (is_wall(*first) && is_wall(*last))) return true;
   const auto seen = back_face(scene);
-  return inside_out(scene) == chain || (seen && seen->chain == chain);
+  const std::vector<int> obstacles = inside_out(scene);
+  return std::count(obstacles.begin(), obstacles.end(), chain) > 0 || (seen && seen->chain == chain);
 }
 
 /// A foot so far from the others that no COM reaches it and one of them.

@@ -49,7 +49,8 @@ struct ProposalCounts {
 /// Keeps what one stance offers until another is asked about: one object per search, not for several threads.
 class StepProposals {
  public:
-  explicit StepProposals(const gaits::Scene& scene) : StepProposals(scene, scene.disturbance) {}
+  /// Steps that are stable under the scene's disturbances, a little widened.
+  explicit StepProposals(const gaits::Scene& scene) : StepProposals(scene, gaits::widened(scene.disturbance)) {}
   /// Steps that are stable under other disturbances than the scene's.
   StepProposals(const gaits::Scene& scene, const stability::DisturbanceBox& box);
 

@@ -110,7 +110,8 @@ class Slice {
 };
 
 /// Moves a twist about x_i to the COM at offset r from it: what Z = (x, 1, m) reads there.
-Row<double> about_com(const Row<double>& twist, const Vec2<double>& r) {
+template <class K>
+Row<K> about_com(const Row<K>& twist, const Vec2<K>& r) {
   return {twist.p + twist.q * r.y, twist.one - twist.q * r.x, twist.q};
 }
 
@@ -313,25 +314,53 @@ bool DualCertificate::proves(const Covector& a, const Frame<Dyadic>& frame_a, co
                                frame_a, covector_about_contact<Dyadic>(line_.posture, spec_, b), frame_b, none, none);
 }
 
-bool DualCertificate::proves_along_axis(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const {
-  if (spec_.kind == Kind::all_break || cone_.free_rotation) return false;
-  const TwistCone<Dyadic> cone = twist_cone<Dyadic>(line_.posture, spec_);
-  const auto proves = [&](const Dyadic& force, const Dyadic& moment) {  // the same about every point: one of them is 0
-    for (int k = 0; k < cone.count; ++k)
-      if ((force * cone.extreme[k].p + moment * cone.extreme[k].q).sign() <= 0) return false;
-    for (const Frame<Dyadic>* frame : {&frame_a, &frame_b})  // linear along the line
-      for (int k = 0; k < edges_.count; ++k) {
-        const ContactTerms<Dyadic>& t = frame->at[edges_.at[k].contact];
-        const int edge = edges_.at[k].edge;
-        if ((force * t.edge[edge].x + moment * t.sz[edge]).sign() > 0) return false;
+namespace {
+
+/// Sums that may be positive, may be at most zero: exactly, or in doubles with what rounding may do to short sums.
+bool may_be_positive(const Row<Dyadic>& terms) { return (terms.p + terms.one + terms.q).sign() > 0; }
+bool may_be_at_most_zero(const Row<Dyadic>& terms) { return (terms.p + terms.one + terms.q).sign() <= 0; }
+double slack_of(const Row<double>& terms) {
+  constexpr double ample = 1e-9;
+  return ample * (std::abs(terms.p) + std::abs(terms.one) + std::abs(terms.q));
+}
+bool may_be_positive(const Row<double>& terms) { return !(terms.p + terms.one + terms.q < -slack_of(terms)); }
+bool may_be_at_most_zero(const Row<double>& terms) { return !(terms.p + terms.one + terms.q > slack_of(terms)); }
+
+/// Whether one of the covectors of proves_on_border proves the mode or, in doubles, may.
+template <class K>
+bool borders_prove(const ModeSpec& spec, const LoadedEdges& edges, const TwistCone<K>& cone, const DisturbanceBox& box,
+                   const Frame<K>& frame_a, const Frame<K>& frame_b) {
+  const K rho2 = frame_a.rho2;
+  // Z = (x, y, rho^2 m) about every COM: Z . M^-1 v = x p + y + m q.
+  const auto proves = [&](const K& x, const K& y, const K& m) {
+    for (const Frame<K>* frame : {&frame_a, &frame_b}) {  // linear along the line
+      for (int k = 0; k < cone.count; ++k) {
+        const Row<K> twist = about_com(cone.extreme[k], frame->at[spec.i].r);
+        if (!may_be_positive(Row<K>{x * twist.p, y * twist.one, rho2 * m * twist.q})) return false;
       }
+      for (int k = 0; k < edges.count; ++k) {
+        const ContactTerms<K>& t = frame->at[edges.at[k].contact];
+        const int edge = edges.at[k].edge;
+        if (!may_be_at_most_zero(Row<K>{x * t.edge[edge].x, y * t.edge[edge].y, m * t.sz[edge]})) return false;
+      }
+    }
     return true;
   };
-  for (const int sign : {1, -1}) {
-    if (line_.box.kappa == 0 && proves(sign, 0)) return true;
-    if (line_.box.nu == 0 && proves(0, sign)) return true;
-  }
+  const K none(0), kappa(box.kappa), nu(box.nu);
+  for (const int sign : {1, -1})
+    if (proves(K(sign), kappa, none) || proves(none, nu, K(sign))) return true;
   return false;
+}
+
+}  // namespace
+
+bool DualCertificate::may_prove_on_border(const Frame<double>& a, const Frame<double>& b) const {
+  if (spec_.kind == Kind::all_break || cone_.free_rotation) return false;
+  return borders_prove(spec_, edges_, cone_, line_.box, a, b);
+}
+
+bool DualCertificate::proves_on_border(const Frame<Dyadic>& a, const Frame<Dyadic>& b) const {
+  return borders_prove(spec_, edges_, twist_cone<Dyadic>(line_.posture, spec_), line_.box, a, b);
 }
 
 }  // namespace surefoot::stability

@@ -69,10 +69,12 @@ class DualCertificate {
   /// straight line between these COMs: in doubles with error bounds, or exactly.
   bool proves(const Covector& a, const Frame<double>& frame_a, const Covector& b, const Frame<double>& frame_b) const;
   bool proves(const Covector& a, const Frame<Dyadic>& frame_a, const Covector& b, const Frame<Dyadic>& frame_b) const;
-  /// Where W has no extent along an axis: whether the covector along that axis, which reads no wrench of W at all,
-  /// proves the mode infeasible between the COMs of the frames. If Z is positive on K, the inequalities (*) need not be
-  /// strict. Exact.
-  bool proves_along_axis(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const;
+  /// Whether (±1, kappa, 0) or (0, nu, ±rho^2) about all COMs, which read 0 on a side of W and nothing negative on it,
+  /// prove the mode infeasible between the COMs of the frames. Where Z is positive on K, the inequalities (*) need not
+  /// be strict: so are proved modes that W only touches, where kappa is a friction coefficient or W has no extent along
+  /// an axis. Exact; of a mode for which, in doubles, they may.
+  bool proves_on_border(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const;
+  bool may_prove_on_border(const Frame<double>& frame_a, const Frame<double>& frame_b) const;
   const TwistCone<double>& cone() const { return cone_; }
 
  private:

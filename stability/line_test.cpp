@@ -78,8 +78,7 @@ class Scanner {
     const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << line_.posture.modes().size()) - 1);
     Station start = station(0), end = station(1);
     result_.excluded = excluded_between(start, end, all, 0);
-    if (result_.feasible_mode < 0 && (line_.box.kappa == 0 || line_.box.nu == 0))
-      exclude_along_axis(all & ~result_.excluded);
+    if (result_.feasible_mode < 0) exclude_on_border(start, end, all & ~result_.excluded);
     return result_;
   }
 
@@ -118,13 +117,14 @@ class Scanner {
     return left;
   }
 
-  void exclude_along_axis(std::uint32_t modes) {
-    if (modes == 0) return;
+  void exclude_on_border(const Station& start, const Station& end, std::uint32_t modes) {
+    const std::uint32_t left = remaining(modes, [&](int k) {
+      return !certificates_.of_mode(k).may_prove_on_border(start.frame(), end.frame());
+    });
+    if (left == 0) return;
     const Frame<Dyadic> a = line_.posture.exact_frame(from_), b = line_.posture.exact_frame(to_);
-    for (std::uint32_t rest = modes; rest != 0; rest &= rest - 1) {
-      const int k = std::countr_zero(rest);
-      if (certificates_.of_mode(k).proves_along_axis(a, b)) result_.excluded |= 1u << k;
-    }
+    const auto proves = [&](int k) { return certificates_.of_mode(k).proves_on_border(a, b); };
+    result_.excluded |= left & ~remaining(left, proves);
   }
 
   bool meets_witness(Station& at, std::uint32_t modes) {

@@ -115,17 +115,27 @@ std::vector<ChainShape> shapes_of_chains(const Terrain& terrain) {
 std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
                                        std::span<const Eigen::AlignedBox2d> inhabited, double room) {
   const auto& segments = terrain.segments();
-  const std::size_t rays = rays_of(terrain, segments.size());
+  const std::size_t rays = rays_of(terrain, segments.size());  // of each kind
   const auto chains = shapes_of_chains(terrain);
   std::vector<bool> is_obstacle(chains.size(), false);  // as far as is known: open below, and so its inside is seen
+  const auto counts = [&](int chain) {
+    if (is_obstacle[static_cast<std::size_t>(chain)]) return false;
+    const ChainShape& shape = chains[static_cast<std::size_t>(chain)];
+    if (shape.twice_area >= 0 || is_inhabited(shape, inhabited) || !stands_on_ground(terrain, shape, room)) return true;
+    is_obstacle[static_cast<std::size_t>(chain)] = true;
+    return false;
+  };
   for (std::size_t k = 0; k < rays; ++k) {
-    const Segment& ground = segments[k * segments.size() / rays];
-    if (!ground.surface.foothold) continue;
-    auto seen = back_face_along(terrain, 0.5 * (ground.a + ground.b), ground.normal, within, &ground);
-    if (!seen || is_obstacle[static_cast<std::size_t>(seen->chain)]) continue;
-    const ChainShape& shape = chains[static_cast<std::size_t>(seen->chain)];
-    if (shape.twice_area >= 0 || is_inhabited(shape, inhabited) || !stands_on_ground(terrain, shape, room)) return seen;
-    is_obstacle[static_cast<std::size_t>(seen->chain)] = true;
+    const Segment& own = segments[k * segments.size() / rays];
+    const Point middle = 0.5 * (own.a + own.b);
+    if (own.surface.foothold)
+      if (const auto seen = back_face_along(terrain, middle, own.normal, within, &own); seen && counts(seen->chain))
+        return seen;
+    // What looks at this one's back; its own chain does not, but is met where the ray leaves its solid at a vertex.
+    const Sight behind = look(terrain, middle, -own.normal, within, &own);
+    const bool is_front = behind.met != nullptr && !behind.back && behind.met->chain != own.chain;
+    if (is_front && behind.met->surface.foothold && counts(own.chain))
+      return BackFace{own.chain, middle, behind.met->chain};
   }
   return std::nullopt;
 }
@@ -151,21 +161,24 @@ std::optional<int> ground_upside_down(const Terrain& terrain, double near, doubl
   return std::nullopt;
 }
 
-std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> start,
-                                       const Eigen::AlignedBox2d& goal, double room) {
+std::vector<int> obstacles_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> start,
+                                      const Eigen::AlignedBox2d& goal, double room) {
   const auto chains = shapes_of_chains(terrain);
   std::size_t rays = rays_of(terrain, 2 * chains.size());
+  std::vector<int> found;
   for (std::size_t chain = 0; chain < chains.size(); ++chain) {
     const ChainShape& shape = chains[chain];
     if (!(shape.twice_area > 0)) continue;  // free space is outside
     if (is_inhabited(shape, start) || (!shape.is_closed() && is_inhabited(shape, {&goal, 1}))) continue;
-    if (shape.is_closed()) return static_cast<int>(chain);
-    if (shape.first->a.x() <= shape.last->b.x()) continue;  // ground with a hollow
-    if (rays < 2) return std::nullopt;
-    rays -= 2;
-    if (stands_on_ground(terrain, shape, room)) return static_cast<int>(chain);
+    if (!shape.is_closed()) {
+      if (shape.first->a.x() <= shape.last->b.x()) continue;  // ground with a hollow
+      if (rays < 2) break;
+      rays -= 2;
+      if (!stands_on_ground(terrain, shape, room)) continue;
+    }
+    found.push_back(static_cast<int>(chain));
   }
-  return std::nullopt;
+  return found;
 }
 
 std::optional<int> solid_around(const Terrain& terrain, const Eigen::AlignedBox2d& area) {

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "terrain/terrain.hpp"
 
@@ -17,21 +18,21 @@ struct BackFace {
 };
 
 /// The first met by rays of length `within` [m] from the middles of segments on which a foot may stand, along their
-/// normals. Every such segment is asked where there are few, an even choice of them where there are many. Obstacles
-/// that are open below, their ends at most `room` [m] above other ground, may show their inside, if none of the
-/// `inhabited` boxes is there.
+/// normals, or whose own middle is seen so, against its normal. Every such segment is asked where there are few, an
+/// even choice of them where there are many. Obstacles that are open below, their ends at most `room` [m] above other
+/// ground, may show their inside, if none of the `inhabited` boxes is there.
 std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
                                        std::span<const Eigen::AlignedBox2d> inhabited, double room);
 
 /// The first met by rays of that length straight up and down from the points; of many points an even choice is asked.
 std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within);
 
-/// The first chain whose free side is its inside, though neither the boxes of the start nor, where it is open, that of
-/// the goal meets its extent (or lies below it, where it is open): most likely an obstacle given the wrong way round.
-/// It is closed (nobody comes in who has not begun there), or runs from right to left and both its ends are at most
-/// `room` [m] above other ground. Nothing where there are too many chains to ask.
-std::optional<int> obstacle_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> start,
-                                       const Eigen::AlignedBox2d& goal, double room);
+/// The chains whose free side is their inside, though neither the boxes of the start nor, where it is open, that of
+/// the goal meets the extent (or lies below it, where it is open): most likely obstacles given the wrong way round. One
+/// is closed (nobody comes in who has not begun there), or runs from right to left and both its ends are at most `room`
+/// [m] above other ground. Open ones only as far as there are few enough to ask.
+std::vector<int> obstacles_inside_out(const Terrain& terrain, std::span<const Eigen::AlignedBox2d> start,
+                                      const Eigen::AlignedBox2d& goal, double room);
 
 /// Whether a rectangle of finite extent lies in solid ground: no segment meets it, and straight up, down, left and
 /// right of it nothing but backs is seen, one above or below at least. The chain of that one.

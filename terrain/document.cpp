@@ -44,7 +44,10 @@ class DocumentBuilder : public YAML::EventHandler {
     if (expects_key()) {
       const auto at = static_cast<std::size_t>(mark.pos);
       const bool comma = at < source_.text.size() && source_.text[at] == ',';
-      fail(mark, comma ? "nothing before the comma; expected a key" : "nothing before the colon; expected a key");
+      const bool begins_line = source_.line_before(at).find_first_not_of(" \t") == std::string_view::npos;
+      fail(mark, comma         ? "nothing before the comma; expected a key"
+                 : begins_line ? "nothing before the colon on its line; expected the key there"
+                               : "nothing before the colon; expected a key");
     }
     // A value left out is marked where the parser noticed, often a line later; its key says it better.
     if (in_map() && !written_null(mark)) {
@@ -259,10 +262,11 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
   Document document;
   Source& source = *document.source_;
   source.name = std::move(name);
-  source.text = text;
+  source.text = with_surrogates_joined(text);
   source.faults = faults;
   source.check_characters();
-  if (text.starts_with("<")) throw source.error(0, 0, "this is a picture or a page (SVG, HTML), not YAML or JSON");
+  if (source.text.starts_with("<"))
+    throw source.error(0, 0, "this is a picture or a page (SVG, HTML), not YAML or JSON");
 
   std::istringstream stream(source.text);
   DocumentBuilder builder(source);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -129,6 +130,40 @@ std::string well_formed(std::string_view value) {
     if (length == 0) result += '\xC2';  // leads both characters, whose second byte is the one that is there
     result += value.substr(i, std::max<std::size_t>(length, 1));
     i += std::max<std::size_t>(length, 1);
+  }
+  return result;
+}
+
+namespace {
+
+/// Of an escape "\uXXXX" at i; -1 if there is none.
+long escaped_unit(std::string_view text, std::size_t i) {
+  constexpr std::size_t digits = 4;
+  if (text.substr(i, 2) != "\\u" || i + 2 + digits > text.size()) return -1;
+  unsigned unit = 0;
+  const char* begin = text.data() + i + 2;
+  const auto [end, error] = std::from_chars(begin, begin + digits, unit, 16);
+  return error == std::errc() && end == begin + digits ? static_cast<long>(unit) : -1;
+}
+
+}  // namespace
+
+std::string with_surrogates_joined(std::string_view text) {
+  const auto is_json = text.find_first_not_of(" \t\r\n");
+  if (is_json == std::string_view::npos || text[is_json] != '{') return std::string(text);
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const long high = escaped_unit(text, i), low = escaped_unit(text, i + 6);
+    if (high >= 0xD800 && high <= 0xDBFF && low >= 0xDC00 && low <= 0xDFFF) {
+      std::array<char, 16> escape;
+      std::snprintf(escape.data(), escape.size(), "\\U%08lX", 0x10000 + ((high - 0xD800) << 10) + (low - 0xDC00));
+      result += escape.data();
+      i += 12;
+    } else {
+      const std::size_t length = text[i] == '\\' ? 2 : 1;  // an escaped backslash begins no escape
+      result += text.substr(i, length);
+      i += length;
+    }
   }
   return result;
 }

@@ -34,6 +34,10 @@ struct Source {
   std::string place_of(std::size_t position) const;
 };
 
+/// JSON writes a character beyond U+FFFF as two escapes of UTF-16 ("\ud83e\udd16"), of which the parser knows only
+/// "\U0001F916": what begins like JSON, written so.
+std::string with_surrogates_joined(std::string_view text);
+
 /// The parser turns the escapes "\_" and "\N" into single bytes; here they become the characters that they stand for
 /// (U+00A0, U+0085), as UTF-8.
 std::string well_formed(std::string_view value);

@@ -201,7 +201,7 @@ function fillIn() {
   set("title", data.title);
   const {kappa, nu} = data.scene;
   set("about", plan.reason || `Disturbances: sideways up to ${kappa} of the weight, torques up to the weight times ` +
-    `${nu} m. A safety factor of 2 withstands twice these.`);
+    `${Number(nu.toPrecision(6))} m. A safety factor of 2 withstands twice these.`);
   element("weakest").hidden = !data.weakest;
   if (data.weakest) set("weakest", `Weakest${data.faults.length ? " as stated" : ""}: ${data.weakest.factor} in ${data.weakest.place}`);
   element("time").max = steps;

@@ -72,9 +72,10 @@ function pose(t) {
       result.legs.push({leg, foot, tip: place(foot), carries: true});
     } else if (transfer && leg === transfer.place.leg) {
       result.legs.push(freeLeg(step, phase, f, com, transfer));
-    } else {
-      const free = data.stances[step].free;
-      result.legs.push({leg, foot: free && free.from, tip: tip(com, restingAngle(step), reachMin), carries: false});
+    } else {  // at the end: a foot that never was lifted may be nearer than reach allows
+      const {from} = data.stances[step].free || {};
+      const length = from ? Math.min(reachMin, distance(com, place(from))) : reachMin;
+      result.legs.push({leg, foot: from, tip: tip(com, restingAngle(step), length), carries: false});
     }
   }
   return result;

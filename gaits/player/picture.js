@@ -201,14 +201,21 @@ function drawRobot(now) {
 /** Metres along the lower edge. */
 function drawAxis() {
   const step = roundLength(90 / camera.scale), [x0, , x1] = camera.window(0), y = camera.height - 6;
-  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const farthest = Math.max(Math.abs(x0), Math.abs(x1));
   for (let k = Math.ceil(x0 / step); k * step <= x1; ++k) {
     const x = camera.px([k * step, 0])[0];
     pen.fillStyle = colours.faint;
     pen.fillRect(x, y, 1, 6);
     if (x < 24 || x > camera.width - 24) continue;
-    label(`${(k * step).toFixed(digits)} m`, [x, y - 4], {size: 10, colour: colours.faint});
+    label(tickLabel(k * step, step, farthest), [x, y - 4], {size: 10, colour: colours.faint});
   }
+}
+
+/** With as many digits as tell ticks apart, up to the farthest one. */
+function tickLabel(x, step, farthest) {
+  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  if (decimals <= 9 && farthest < 1e7) return `${x.toFixed(decimals)} m`;
+  return `${Number(x.toPrecision(clamp(Math.floor(Math.log10(farthest / step) + 2), 1, 17)))} m`;
 }
 
 /** 1, 2 or 5 times a power of ten, at least `length`. */

@@ -45,7 +45,8 @@ function paintBars() {
   p.fillStyle = colours.faint;
   p.fillRect(pad, base, width - 2 * pad, 1);
   if (data.weakest) {
-    const x = stripX(data.weakest.index + (data.weakest.in_transfer ? 0.7 : 0.21)), y = base - tall - 8;
+    const {index, in_transfer: inTransfer} = data.weakest, y = base - tall - 8;
+    const x = index === steps ? stripX(steps) + pad / 2 : stripX(index + (inTransfer ? 0.7 : 0.21));
     p.fillStyle = colours.weak;
     p.beginPath(); p.moveTo(x - 6, y); p.lineTo(x + 6, y); p.lineTo(x, y + 8); p.fill();
   }

@@ -1,7 +1,8 @@
 // What the page says about things, and what lies under the pointer. Safety factors and limits come worded from the
 // program, as in its table.
-const metres = x => x.toFixed(data.decimals) + " m";
-const point = p => `(${p[0].toFixed(data.decimals)},\u00a0${p[1].toFixed(data.decimals)})`;
+const length = x => "decimals" in data ? x.toFixed(data.decimals) : String(Number(x.toPrecision(6)));
+const metres = x => length(x) + " m";
+const point = p => `(${length(p[0])},\u00a0${length(p[1])})`;
 const listed = list => list.length < 2 ? list.join("") : list.slice(0, -1).join(", ") + " and " + list[list.length - 1];
 const safety = ({factor, why}) => `safety factor ${factor}${why ? ": " + why : ""}`;
 

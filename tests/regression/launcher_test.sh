@@ -308,8 +308,8 @@ fi
 # Misspelt items are refused before anything is built; which there are is taken from their registry.
 mkdir -p "$tree/bench/error_time"
 bench=${launcher%/*}/bench/error_time
-cp "$bench/registry.cpp" "$tree/bench/error_time/"
-for words in nosuch "verdict nosuch" "verdict --quick line nosuch"; do
+cp "$bench"/*.cpp "$tree/bench/error_time/"
+for words in nosuch "verdict nosuch" "verdict --quick line nosuch" "--quick nosuch"; do
   # shellcheck disable=SC2086
   run bench $words
   expect "bench $words: status 2" test "$status" -eq 2
@@ -322,6 +322,12 @@ expect "there are items" test "$(wc -w <<<"$items")" -ge 5
 for item in ${items//,/}; do
   expect "$item is the name of ${item}_item" grep -q "Item${item}_item{\"$item\"" <(tr -d ' \n' <"$bench/$item.cpp")
 done
+run bench --list
+expect "benchmarks are listed before they are built" nothing_called
+for item in ${items//,/}; do
+  expect "$item is listed in words" grep -Eq "^$item +[A-Z][a-z' ]+.{10}" "$work/out"
+done
+expect "nothing else is listed" test "$(wc -l <"$work/out")" -eq "$(wc -w <<<"$items")"
 run bench "${items%%,*}" --out nosuch
 expect "what follows an option is no item" called "cmake --preset bench"
 run plan x

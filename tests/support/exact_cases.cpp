@@ -314,6 +314,22 @@ LineFamily grid_lines(Sampler& sampler) {
   return family;
 }
 
+LineFamily tied(Sampler& sampler) {
+  constexpr std::array level{Kind::flat, Kind::stairs, Kind::treads, Kind::any};
+  LineFamily family;
+  SamplePosture& sample = family.sample;
+  sample = sampler.posture(pick(sampler, level), sampler.integer(2, 3));
+  if (sampler.chance(0.2)) sample.box.kappa = 0;
+  if (sampler.chance(0.2)) sample.box.nu = 0;
+  const int last = static_cast<int>(sample.contacts.size()) - 1;
+  if (sampler.chance(0.8)) sample.contacts[sampler.integer(0, last)].friction = sample.box.kappa;
+  const ExactPosture exact(sample);
+  const auto coms = robust_coms(exact, sample, sampler, 3, 1);
+  for (std::size_t k = 0; k + 1 < coms.size(); ++k) family.lines.push_back({coms[k], coms[k + 1]});
+  if (!coms.empty()) family.lines.push_back({coms[0], sampler.com_near(sample.contacts)});
+  return family;
+}
+
 }  // namespace
 
 const char* name(PointKind kind) {
@@ -322,7 +338,7 @@ const char* name(PointKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 const char* name(LineKind kind) {
-  constexpr std::array names{"random", "robust ends", "slender", "tangential", "grid", "D on the line"};
+  constexpr std::array names{"random", "robust ends", "slender", "tangential", "grid", "D on the line", "tied"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -356,6 +372,7 @@ LineFamily line_family(LineKind kind, Sampler& sampler) {
     case LineKind::tangential: return touching(sampler);
     case LineKind::grid: return grid_lines(sampler);
     case LineKind::painleve: return through_zero_denominator(sampler);
+    case LineKind::tied: return tied(sampler);
   }
   return {};
 }

@@ -40,9 +40,10 @@ enum class LineKind {
   tangential,   ///< an end moved by bisection to where the verdict changes, and its neighbours
   grid,         ///< small dyadic numbers: touching exactly, running along boundaries
   painleve,     ///< D changes its sign on the line, or only touches zero
+  tied,         ///< friction kappa, or W without extent along an axis: modes that W touches all along
 };
-inline constexpr std::array line_kinds{LineKind::random,     LineKind::stable_ends, LineKind::slender,
-                                       LineKind::tangential, LineKind::grid,        LineKind::painleve};
+inline constexpr std::array line_kinds{LineKind::random, LineKind::stable_ends, LineKind::slender, LineKind::tangential,
+                                       LineKind::grid,   LineKind::painleve,    LineKind::tied};
 
 const char* name(PointKind kind);
 const char* name(LineKind kind);

@@ -23,6 +23,14 @@ TEST_CASE("A ceiling given like ground turns its back to the ground below", "[ba
   CHECK(seen->index == 0);
   CHECK(seen->at == Point(0, 1));  // over the middle of the first segment
   CHECK_FALSE(back_face_seen(Terrain({ground, chain({{0.5, 1}, {-0.5, 1}})}), 1.5, {}, 0.2));
+  // One that no middle of the ground lies under is seen from above.
+  const auto narrow = back_face_seen(Terrain({ground, chain({{0.3, 1}, {0.7, 1}})}), 1.5, {}, 0.2);
+  REQUIRE(narrow);
+  CHECK(narrow->chain == 1);
+  CHECK(narrow->index == 0);
+  CHECK(narrow->at == Point(0.5, 1));
+  CHECK_FALSE(back_face_seen(Terrain({ground, chain({{0.7, 1}, {0.3, 1}})}), 1.5, {}, 0.2));
+  CHECK_FALSE(back_face_seen(Terrain({ground, chain({{0.3, 1}, {0.7, 1}})}), 0.9, {}, 0.2));
 }
 
 TEST_CASE("What lies behind other ground, too far away or without footholds is not asked", "[back_faces]") {
@@ -98,7 +106,7 @@ TEST_CASE("Obstacles given the wrong way round are told from ceilings and from r
   const Chain floor = chain({{-1, 0}, {6, 0}});
   const Box start(Point(0, 0)), goal(Point(5, -10), Point(5.4, 10));
   const auto told = [&](std::vector<Point> vertices, const Box& from, const Box& to) {
-    return obstacle_inside_out(Terrain({floor, chain(std::move(vertices))}), {&from, 1}, to, 0.2);
+    return obstacles_inside_out(Terrain({floor, chain(std::move(vertices))}), {&from, 1}, to, 0.2);
   };
   const std::vector<std::vector<Point>> obstacles{
       {{1, 0.1}, {1, 0.3}, {1.4, 0.3}, {1.4, 0.1}},            // a box, as it should be
@@ -111,22 +119,27 @@ TEST_CASE("Obstacles given the wrong way round are told from ceilings and from r
   for (const std::vector<Point>& vertices : obstacles) {
     INFO(vertices.size() << " vertices from " << vertices.front().transpose() << " by " << vertices[1].transpose());
     const std::vector<Point> reversed(vertices.rbegin(), vertices.rend());
-    CHECK_FALSE(told(vertices, start, goal));
-    CHECK(told(reversed, start, goal) == 1);
+    CHECK(told(vertices, start, goal).empty());
+    CHECK(told(reversed, start, goal) == std::vector<int>{1});
     // A room with the goal in it, which nobody can enter if it is closed; a room with the start in it.
     const bool is_closed = vertices.front() == vertices.back();
-    CHECK(told(reversed, start, Box(Point(1.2, 0.1), Point(5, 5))).has_value() == is_closed);
-    CHECK_FALSE(told(reversed, Box(Point(1.2, vertices[1].y())), goal));
+    CHECK(told(reversed, start, Box(Point(1.2, 0.1), Point(5, 5))).size() == (is_closed ? 1 : 0));
+    CHECK(told(reversed, Box(Point(1.2, vertices[1].y())), goal).empty());
   }
   // A vault over a trench that both are in.
   const Chain trench = chain({{-4, 0}, {-1.5, 0}, {-1.5, -1}, {7.5, -1}, {7.5, 0}, {10, 0}});
   const Terrain vaulted({trench, chain({{8, 0.1}, {8, 2}, {-2, 2}, {-2, 0.1}})});
   const Box below(Point(0, -1));
-  CHECK_FALSE(obstacle_inside_out(vaulted, {&below, 1}, Box(Point(5, -0.7), Point(6, -0.3)), 0.2));
-  CHECK_FALSE(told({{3, 2}, {3, 1}, {1, 1}, {1, 2}}, start, goal));              // a ceiling with its sides
-  CHECK_FALSE(told({{3, 1}, {1, 1}}, start, goal));                              // without
-  CHECK_FALSE(told({{1.4, 0.3}, {1.4, 0.5}, {1, 0.5}, {1, 0.3}}, start, goal));  // ends too high over the floor
-  CHECK_FALSE(told({{1, 0.15}, {1.2, 0.1}, {1.4, 0.15}}, start, goal));          // ground with a hollow over the floor
+  CHECK(obstacles_inside_out(vaulted, {&below, 1}, Box(Point(5, -0.7), Point(6, -0.3)), 0.2).empty());
+  CHECK(told({{3, 2}, {3, 1}, {1, 1}, {1, 2}}, start, goal).empty());              // a ceiling with its sides
+  CHECK(told({{3, 1}, {1, 1}}, start, goal).empty());                              // without
+  CHECK(told({{1.4, 0.3}, {1.4, 0.5}, {1, 0.5}, {1, 0.3}}, start, goal).empty());  // ends too high over the floor
+  CHECK(told({{1, 0.15}, {1.2, 0.1}, {1.4, 0.15}}, start, goal).empty());  // ground with a hollow over the floor
+  // Every one is told, and what is between them is not.
+  const Chain one = chain({{1, 0.5}, {1.4, 0.5}, {1.4, 1}, {1, 1}, {1, 0.5}});
+  const Chain right_way = chain({{2, 0.5}, {2, 1}, {2.4, 1}, {2.4, 0.5}, {2, 0.5}});
+  const Chain other = chain({{3.4, 0.1}, {3.4, 0.3}, {3, 0.3}, {3, 0.1}});
+  CHECK(obstacles_inside_out(Terrain({one, floor, right_way, other}), {&start, 1}, goal, 0.2) == std::vector{0, 3});
 }
 
 TEST_CASE("An area is in solid ground if it has no ground in it and nothing but backs around", "[back_faces]") {

@@ -82,9 +82,10 @@ std::string limit_in_words(const std::string& limit, const std::vector<int>& leg
 }
 
 std::string factor_in_words(double sigma) {
-  constexpr double rounds_to_one = 0.9995;  // from here on three digits would read 1.00
+  constexpr double rounds_to_one = 0.9995, reads_as_one = 1.005;  // between them three digits would read 1.00
   if (std::isinf(sigma)) return "inf";
   if (sigma < 1 && sigma >= rounds_to_one) return "<1.00";
+  if (sigma > 1 && sigma < reads_as_one) return ">1.00";
   if (sigma == 0) return "0";
   if (sigma < 1e-3 || sigma >= 1e5) return fmt::format("{:.2e}", sigma);
   const int before_point = static_cast<int>(std::floor(std::log10(sigma))) + 1;
@@ -103,8 +104,9 @@ bool is_told_in_decimals(double reach) {
 }
 
 std::string length_in_words(double length, double reach) {
-  return is_told_in_decimals(reach) ? fmt::format("{:.{}f}", length, decimals_for(reach))
-                                    : fmt::format("{:.6g}", length);
+  if (!is_told_in_decimals(reach)) return fmt::format("{:.6g}", length);
+  const std::string text = fmt::format("{:.{}f}", length, decimals_for(reach));
+  return text.find_first_not_of("-0.") == std::string::npos && text.starts_with("-") ? text.substr(1) : text;
 }
 
 std::vector<int> planted_legs(const Feet& feet) {

@@ -29,7 +29,8 @@ WeakestPlace weakest_place(const Plan& plan);
 /// "the transfer of step 3", "the last stance".
 std::string place_in_words(const WeakestPlace& place, int steps);
 
-/// A safety factor to three significant digits; one below 1 never reads 1.00 ("<1.00"), infinity reads "inf".
+/// A safety factor to three significant digits; one beside 1 does not read 1.00 ("<1.00", ">1.00"),
+/// infinity reads "inf".
 std::string factor_in_words(double sigma);
 
 /// Digits of a length [m] after the point: millimetres for a robot of about a metre; in general at least a thousandth

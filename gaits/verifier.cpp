@@ -137,7 +137,9 @@ void Verifier::check_stance(std::size_t k) {
   const auto planted = [](const auto& feet) {
     return std::count_if(feet.begin(), feet.end(), [](const auto& foot) { return foot.has_value(); });
   };
-  if (planted(stance.feet) != 2) fault(place, "{} feet are planted; a stance has exactly 2", planted(stance.feet));
+  if (planted(stance.feet) != 2)
+    fault(place, "{} {} planted; a stance has exactly 2", planted(stance.feet),
+          planted(stance.feet) == 1 ? "foot is" : "feet are");
   if (!can_ask(k)) return;
   checks_.check_reach(place, feet_[k], com(k), com(k));
   checks_.check_clearance(place, com(k), com(k));

@@ -175,7 +175,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateArguments& a) {
   simulate
       ->add_option("--neighbourhood", a.neighbourhood,
                    "displacement at which the body has left [m] (default: a tenth of\n"
-                   "the distance of the contacts)")
+                   "the distance of the contacts or, where that is more, of rho)")
       ->type_name("D");
   simulate->add_option("--time-limit", a.time_limit, "simulated seconds (default 100)")->type_name("S");
   simulate->add_flag("--linearised", a.linearised, "the linearised dynamics about the posture");

@@ -189,8 +189,9 @@ int run_plan(const PlanArguments& arguments) {
   if (const std::string remark = arguments.quiet ? "" : scene_remark(scene); !remark.empty()) note("remark: " + remark);
   FigureOutputs outputs = open_outputs(arguments);
   if (arguments.verbose)
-    note(fmt::format("{}: {} segments, planner {}, seed {}, time limit {} s", scene.name,
-                     scene.terrain.segments().size(), options.planner, options.seed, options.time_limit));
+    note(fmt::format("{}: {} segment{}, planner {}, seed {}, time limit {} s", scene.name,
+                     scene.terrain.segments().size(), scene.terrain.segments().size() == 1 ? "" : "s", options.planner,
+                     options.seed, options.time_limit));
   if (!arguments.quiet) options.progress = [](const std::string& text) { show_progress(text); };
   const Interruption interruption;
   options.interrupted = [&interruption] { return interruption.asked(); };

@@ -51,8 +51,8 @@ void Refusals::add(gaits::Rule rule, const Eigen::Vector2d& com) {
 
 std::string Refusals::summary() const {
   const std::uint64_t all = sum(total_);
+  if (all == 0) return "no landing or step refused";
   std::string text = fmt::format("{} landings and steps refused", all);
-  if (all == 0) return text;
   text += ": " + shares(total_);
   const auto less = [](const auto& a, const auto& b) {
     const std::uint64_t left = sum(a.second.refused), right = sum(b.second.refused);

@@ -139,6 +139,19 @@ bool is_wrong_way(const gaits::Scene& scene, int chain) {
   return std::count(obstacles.begin(), obstacles.end(), chain) > 0 || (seen && seen->chain == chain);
 }
 
+/// Coordinates so large that what is left of their digits is coarse beside the robot.
+std::string coarse_remark(const gaits::Scene& scene) {
+  constexpr double coarse = 1e-6;  // relative to the greatest reach
+  const auto bounds = scene.terrain.bounds();
+  const double farthest = std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
+  const double apart = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
+  if (apart <= coarse * scene.robot.reach_max) return "";
+  return fmt::format(
+      "coordinates go up to {:.6g} m, where numbers are {:.3g} m apart, and the greatest reach is {:.6g} m: is the "
+      "origin meant to be so far away?",
+      farthest, apart, scene.robot.reach_max);
+}
+
 /// A foot so far from the others that no COM reaches it and one of them.
 std::string far_foot_remark(const gaits::Scene& scene) {
   const double span = 2 * scene.robot.reach_max;
@@ -182,10 +195,11 @@ std::string scene_remark(const gaits::Scene& scene) {
         "the radius of gyration, {:.6g} m, is more than the greatest reach, {:.6g} m: are both in metres?",
         scene.robot.radius_of_gyration, scene.robot.reach_max);
   if (std::string scale = scale_remark(scene); !scale.empty()) return scale;
-  constexpr double giant = 50;  // [m]
-  if (scene.robot.reach_max > giant)
+  constexpr double tiny = 1e-3, giant = 50;  // [m]
+  if (scene.robot.reach_max < tiny || scene.robot.reach_max > giant)
     return fmt::format("the greatest reach is {:.6g} m: are all lengths, nu among them, in metres?",
                        scene.robot.reach_max);
+  if (std::string coarse = coarse_remark(scene); !coarse.empty()) return coarse;
   if (std::string far_foot = far_foot_remark(scene); !far_foot.empty()) return far_foot;
   if (std::string inside_out = inside_out_remark(scene); !inside_out.empty()) return inside_out;
   if (const auto seen = back_face(scene)) return back_face_words(*seen);

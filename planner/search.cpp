@@ -300,7 +300,7 @@ gaits::Plan search(const gaits::Scene& scene, const SearchOptions& options) {
     throw std::invalid_argument("unknown objective '" + options.objective + "'");
   stability::require(options.seed >= 1 && options.seed <= gaits::greatest_seed, "seed: out of range");
   stability::require(options.effort >= 0 && !std::isnan(options.time_limit),
-                     "search: expected effort >= 0, a time limit");
+                     "search: expected an effort >= 0 and a time limit that is a number");
   return Search(scene, options).run();
 }
 

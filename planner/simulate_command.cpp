@@ -113,11 +113,12 @@ SimulateRecord record_run(const HybridBody& body, const Subject& subject) {
   record.title = subject.title;
   record.restitution = subject.request.options.restitution;
   record.start = start_of(body, subject.push);
-  record.run = stability::simulate(body, record.start, subject.request.options_for(body),
-                                   [&record](const stability::HybridEvent& event) {
-                                     if (record.events.size() < most_events) record.events.push_back(event);
-                                     else ++record.omitted;
-                                   });
+  const stability::HybridOptions options = subject.request.options_for(body);
+  record.neighbourhood = options.neighbourhood;
+  record.run = stability::simulate(body, record.start, options, [&record](const stability::HybridEvent& event) {
+    if (record.events.size() < most_events) record.events.push_back(event);
+    else ++record.omitted;
+  });
   return record;
 }
 
@@ -151,8 +152,8 @@ int run_simulate(const SimulateArguments& arguments) {
   const SimulateRecord record = record_run(body, subject);
   if (outputs.wants("--svg")) {
     gaits::MotionFigure figure{record.title, {}, body.contacts(), record.start, record.events};
-    figure.result = fmt::format("{} after {:.6g} s, {} collisions", name(record.run.outcome), record.run.time,
-                                record.run.collisions);
+    figure.result = fmt::format("{} after {:.6g} s, {} collision{}", name(record.run.outcome), record.run.time,
+                                record.run.collisions, record.run.collisions == 1 ? "" : "s");
     outputs.put("--svg", gaits::to_svg(figure));
   }
   if (outputs.wants("--json")) outputs.put("--json", simulation_to_json(body, record));

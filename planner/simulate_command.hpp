@@ -28,7 +28,7 @@ int run_simulate(const SimulateArguments& arguments);
 /// A run with what the command says of it.
 struct SimulateRecord {
   std::string title;
-  double restitution = 0;
+  double restitution = 0, neighbourhood = 0;
   stability::BodyState start;
   stability::HybridRun run;
   std::vector<stability::HybridEvent> events;  ///< the first of them

@@ -68,10 +68,13 @@ std::string ending(const HybridBody& body, const SimulateRecord& record) {
     case stability::HybridRun::Outcome::rest:
       return fmt::format("at rest after {:.9g} s, displaced by {:.3g} m and turned by {:.3g} rad", run.time,
                          body.excursion(run.state), run.state.theta);
-    case stability::HybridRun::Outcome::left: return fmt::format("left its neighbourhood after {:.9g} s", run.time);
+    case stability::HybridRun::Outcome::left:
+      return fmt::format("left its neighbourhood of {:.3g} m after {:.9g} s", record.neighbourhood, run.time);
     case stability::HybridRun::Outcome::inconsistent:
       return fmt::format("no contact mode is consistent after {:.9g} s: only an impact could resolve it", run.time);
-    default: return fmt::format("undecided: still moving after {:.9g} s and {} collisions", run.time, run.collisions);
+    default:
+      return fmt::format("undecided: still moving after {:.9g} s and {} collision{}", run.time, run.collisions,
+                         run.collisions == 1 ? "" : "s");
   }
 }
 

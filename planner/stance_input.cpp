@@ -13,7 +13,7 @@ namespace {
 using terrain::InputError;
 
 std::vector<int> legs_of(const std::string& text) {
-  const char* form = "two or three legs as 1,2 or 1,2,3";
+  const char* form = "two or three of the legs 1, 2, 3, as 1,2 or 1,2,3";
   const auto commas = static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
   if (commas != 1 && commas != 2)
     throw InputError(fmt::format("--stance: found {}, expected {}", one_line(text), form));

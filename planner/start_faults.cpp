@@ -121,6 +121,9 @@ std::string friction_fault(const gaits::Scene& scene, const gaits::Stance& stanc
     return fmt::format(
         "no COM balances on feet {}, even without disturbances: the ground is too steep for its friction",
         legs_in_words(stance));
+  if (kappa == 0)
+    return fmt::format("no COM balances on feet {}: without friction they bear no sideways push, however small",
+                       legs_in_words(stance));
   const std::string pushes =
       std::abs(borne) <= error ? "no sideways push" : fmt::format("sideways pushes below {:.6g} of the weight", borne);
   return fmt::format("no COM balances on feet {}: friction bears {}, kappa is {}", legs_in_words(stance), pushes,

@@ -43,11 +43,10 @@ class DocumentBuilder : public YAML::EventHandler {
     Node node = make(mark);
     if (expects_key()) {
       const auto at = static_cast<std::size_t>(mark.pos);
-      const bool comma = at < source_.text.size() && source_.text[at] == ',';
-      const bool begins_line = source_.line_before(at).find_first_not_of(" \t") == std::string_view::npos;
-      fail(mark, comma         ? "nothing before the comma; expected a key"
-                 : begins_line ? "nothing before the colon on its line; expected the key there"
-                               : "nothing before the colon; expected a key");
+      const char there = at < source_.text.size() ? source_.text[at] : ' ';
+      fail(mark, there == ','                    ? "nothing before the comma; expected a key"
+                 : there == '"' || there == '\'' ? "this key ends its line; expected its colon on the same line"
+                                                 : "nothing before the colon; expected a key");
     }
     // A value left out is marked where the parser noticed, often a line later; its key says it better.
     if (in_map() && !written_null(mark)) {

@@ -139,7 +139,7 @@ namespace {
 /// Of an escape "\uXXXX" at i; -1 if there is none.
 long escaped_unit(std::string_view text, std::size_t i) {
   constexpr std::size_t digits = 4;
-  if (text.substr(i, 2) != "\\u" || i + 2 + digits > text.size()) return -1;
+  if (i + 2 + digits > text.size() || text.substr(i, 2) != "\\u") return -1;
   unsigned unit = 0;
   const char* begin = text.data() + i + 2;
   const auto [end, error] = std::from_chars(begin, begin + digits, unit, 16);

@@ -195,7 +195,8 @@ constexpr std::pair<const char*, const char*> reasons[]{
      "modes that the contacts allow, all with bounds of their rounding errors; nothing of this can be kept for another "
      "COM"},
     {"GLPK over surefoot",
-     "the same times; GLPK itself is about as fast here as on the machine that the target was set on"},
+     "as the rows of surefoot's own times; where those were measured, GLPK was about as fast as where the target was "
+     "set"},
     {"robust verdict, same contacts",
      "the target is what the best test of equilibrium alone takes; more than half of the instructions go to the modes "
      "beyond it"},

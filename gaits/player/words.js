@@ -1,6 +1,6 @@
 // What the page says about things, and what lies under the pointer. Safety factors and limits come worded from the
 // program, as in its table.
-const length = x => "decimals" in data ? x.toFixed(data.decimals) : String(Number(x.toPrecision(6)));
+const length = x => "decimals" in data ? x.toFixed(data.decimals).replace(/^-(?=[0.]*$)/, "") : String(Number(x.toPrecision(6)));
 const metres = x => length(x) + " m";
 const point = p => `(${length(p[0])},\u00a0${length(p[1])})`;
 const listed = list => list.length < 2 ? list.join("") : list.slice(0, -1).join(", ") + " and " + list[list.length - 1];

@@ -1,9 +1,11 @@
 // What people see of a plan: the table of steps and the picture.
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <clocale>
 #include <limits>
 #include <locale>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "fixtures.hpp"
@@ -148,6 +150,10 @@ TEST_CASE("an unstable safety factor is never rounded up to 1", "[plan_text]") {
   REQUIRE(to_text(scene, plan).find("least safety factor 0.999") != std::string::npos);
   REQUIRE(factor_in_words(0.0123456) == "0.0123");
   REQUIRE(factor_in_words(12.345) == "12.3");
+  REQUIRE(factor_in_words(1 + 1e-9) == ">1.00");
+  REQUIRE(factor_in_words(1.0049) == ">1.00");
+  REQUIRE(factor_in_words(1.006) == "1.01");
+  REQUIRE(factor_in_words(1) == "1.00");
   REQUIRE(factor_in_words(1234.5) == "1234");
   plan.safety_factor = 1;
   REQUIRE(to_text(scene, plan).find("least safety factor 1.00") != std::string::npos);
@@ -166,6 +172,16 @@ TEST_CASE("no plan: the status and the reason are said", "[plan_text]") {
   REQUIRE(to_text(scene, plan)
               .starts_with(
                   "gap: no plan found within the time limit (auto)\n  Layers came to COM (1, 2)\n  3 steps refused\n"));
+}
+
+TEST_CASE("lengths are told in decimals, of tiny and giant robots in digits, and zero has no sign", "[plan_text]") {
+  CHECK(length_in_words(-0.0004, 0.9) == "0.000");
+  CHECK(length_in_words(-0.0006, 0.9) == "-0.001");
+  CHECK(length_in_words(12.3456, 0.9) == "12.346");
+  CHECK(length_in_words(0.0123456789, 0.05) == "0.0123");
+  CHECK(length_in_words(-2.5e-7, 9e-7) == "-0.000000250");
+  CHECK(length_in_words(-2.5e-10, 9e-10) == "-2.5e-10");
+  CHECK(length_in_words(1.23456789e30, 9e29) == "1.23457e+30");
 }
 
 TEST_CASE("limits are spelled out with the legs they mean", "[plan_text]") {
@@ -269,9 +285,10 @@ TEST_CASE("positions in the picture agree with the scale bar, and R_SS(W) with t
   REQUIRE(on_edge >= 4);
 }
 
-TEST_CASE("scenes of any size and place are drawn", "[plan_svg]") {
-  for (const double factor : {1e-6, 1e6})
-    for (const double shift : {0.0, 1e6}) {
+TEST_CASE("scenes of any size and place are drawn, and their lengths read well", "[plan_svg]") {
+  for (const double factor : {1e-6, 1e6, 1e-90, 1e30})
+    for (const double shift : {0.0, 1e6 * std::max(factor, 1e-6)}) {
+      if (factor < 1e-6 && shift > 0) continue;  // lost in it
       Scene scene = scene_on({chain({{-5 * factor + shift, 0}, {5 * factor + shift, 0}})});
       scene.robot = {0.12 * factor, 0.2 * factor, 0.9 * factor, 0.05 * factor, {}};
       scene.disturbance.nu *= factor;
@@ -283,7 +300,19 @@ TEST_CASE("scenes of any size and place are drawn", "[plan_svg]") {
       const ptree tree = read_xml_text(to_svg(scene, plan));
       REQUIRE(count_class(tree, "stance") == 1);
       REQUIRE(tree.get<double>("svg.<xmlattr>.height") < 2000);
-      REQUIRE(to_text(scene, plan).find("end") != std::string::npos);
+      const std::string text = to_text(scene, plan);
+      REQUIRE(text.find("end") != std::string::npos);
+      CAPTURE(factor, shift, text);
+      for (const std::string& line : lines_of(text)) CHECK(line.size() < 160);
+      if (factor < 1e-6 || factor > 1e6) CHECK(text.find(fmt::format("{:.3g}", 0.5 * factor)) != std::string::npos);
+      std::set<std::string> ticks;
+      each_element(tree, [&](const std::string& name, const ptree& element) {
+        const std::string label = element.data();
+        if (name != "text" || element.get("<xmlattr>.fill", "") == "none" || !label.ends_with(" m")) return;
+        CHECK(label.size() <= 24);  // ticks are 80 pixels apart at least
+        ticks.insert(label);
+      });
+      CHECK(ticks.size() > 3);
     }
 }
 
@@ -316,6 +345,7 @@ TEST_CASE("a ceiling within reach of the plan is in the picture, a higher one is
   const double without = page_height({});
   CHECK(page_height({chain({{5, 1.2}, {-5, 1.2}})}) > without + 50);   // [px]: 0.7 m above the COM
   CHECK(page_height({chain({{405, 42}, {-5, 0.9}})}) > without + 50);  // rises slowly
+  CHECK(page_height({chain({{-5, 1.2}, {5, 1.2}})}) > without + 50);   // the wrong way round
   CHECK(page_height({chain({{5, 1.5}, {-5, 1.5}})}) == without);       // beyond reach 0.9
   CHECK(page_height({chain({{0.5, 1.2}, {0.45, 0.1}})}) == without);   // a wall that leans
   const auto rows_height = [](std::vector<surefoot::terrain::Chain> more) {

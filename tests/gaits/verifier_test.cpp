@@ -85,7 +85,7 @@ TEST_CASE("which legs are placed and lifted is checked", "[verifier]") {
     require_fault(verify(scene, plan), Rule::gait, "stance 2", "3 feet are planted");
     plan.stances[1].feet = {};
     plan.stances[1].feet[1] = foot_at(scene, 5.2);
-    require_fault(verify(scene, plan), Rule::gait, "stance 2", "1 feet are planted");
+    require_fault(verify(scene, plan), Rule::gait, "stance 2", "1 foot is planted");
   }
   SECTION("a missing transfer, a missing stance") {
     plan.transfers.pop_back();

@@ -196,7 +196,7 @@ TEST_CASE("improving keeps a plan that holds and never makes it longer", "[layer
 TEST_CASE("shares of refusals by rule, and the square with most of them", "[layers]") {
   using gaits::Rule;
   Refusals refusals(0.5);
-  CHECK(refusals.summary() == "0 landings and steps refused");
+  CHECK(refusals.summary() == "no landing or step refused");
   for (int i = 0; i < 6; ++i) refusals.add(Rule::reach, {1.2, -0.1});
   for (int i = 0; i < 2; ++i) refusals.add(Rule::swing, {1.3, -0.4});
   for (int i = 0; i < 2; ++i) refusals.add(Rule::swing, {0.7, 0.1});

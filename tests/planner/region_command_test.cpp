@@ -119,7 +119,7 @@ TEST_CASE("Improper input is refused on one line with its place", "[region]") {
   refused("--posture zero.json", "may not be zero");
   refused("--posture level.json --stance 1,2", "--stance");
   refused(scene + " --stance 1,1", "found 1,1");
-  refused(scene + " --stance 1,4", "expected two or three legs");
+  refused(scene + " --stance 1,4", "expected two or three of the legs 1, 2, 3");
   refused("--posture level.json --window 1,1,0,0", "xmin < xmax");
   refused("--posture level.json --window 1,1", "--window");
   refused("--posture level.json --wrench a,b", "found a,b");

@@ -10,6 +10,7 @@
 #include "gaits/verifier.hpp"
 #include "planner/problem.hpp"
 #include "planner/step_proposals.hpp"
+#include "stability/decisions.hpp"
 
 using namespace surefoot;
 
@@ -203,6 +204,19 @@ TEST_CASE("start feet that one COM alone can reach are not called bad input", "[
   const auto plan = run(open);
   CHECK(plan.status == gaits::Status::no_plan_found);
   CHECK_THAT(plan.reason, Catch::StartsWith("start is not stable: no COM within reach of feet 1 and 2 was found"));
+}
+
+TEST_CASE("friction of exactly kappa costs no search its margin, nor its time in exact arithmetic", "[search]") {
+  const std::string tread =
+      "  friction: 0.6\n  chains:\n"
+      "    - {vertices: [[-1, 0], [0.5, 0], [1, 0], [4, 0]], segments: {1: {friction: 0.08}}}\n";
+  const auto scene = gaits::parse_scene(scene_text(tread, three_feet, "{com_x: [3, 3.2]}"), "tread");
+  REQUIRE(scene.disturbance.kappa == 0.08);
+  stability::decisions = {};
+  const auto plan = run(scene, "Layers");
+  require_holds(scene, plan);
+  CHECK(plan.safety_factor > 1.0000000005);
+  CHECK(stability::decisions.lines_exactly < 20);
 }
 
 TEST_CASE("terrain that is farther away than any journey changes nothing", "[search]") {

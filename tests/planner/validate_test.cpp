@@ -52,6 +52,11 @@ TEST_CASE("Terrains in millimetres are remarked on, large ones are not", "[valid
   place.write("s.yaml", with("[0.2, 0.9]", "[200, 900]", with("0.15", "150", far_feet)));
   CHECK_THAT(place.run("validate s.yaml").out,
              Catch::Contains("remark: the greatest reach is 900 m: are all lengths, nu"));
+  place.write("s.yaml", with("[0.2, 0.9]", "[2.0e-7, 9.0e-7]",
+                             with("0.15", "1.0e-7", with("-0.3", "-3.0e-7", with("0.25", "2.5e-7", flat_scene)))));
+  CHECK_THAT(place.run("validate s.yaml").out, Catch::Contains("remark: the greatest reach is 9e-07 m: are all"));
+  CHECK_THAT(told("[[-1, 0], [1.0e+12, 0]]"),
+             Catch::Contains("remark: coordinates go up to 1e+12 m, where numbers are 0.000122 m apart"));
   for (const std::string large :
        {"[[-1000, 0], [4000, 0]]", "[[-1000, 0], [500, 0], [500, 0.15], [900, 0.15], [4000, 0]]",
         "[[-1, 1], [-1, 0], [99, 0], [99, 1]]", "[[-99, 0], [99, 0], [199, 5], [299, 0]]",
@@ -77,6 +82,9 @@ TEST_CASE("Obstacles given the wrong way round and goals in solid ground are rem
   CHECK_THAT(told(with_chain(closed,
                              with("{x: -0.3}, {x: 0.25}, {x: 0}", "{chain: 0, s: 0.7}, {chain: 0, s: 1.25}, null"))),
              Catch::Contains("remark: the free side of chain 1 is its inside, where the start does not lie"));
+  CHECK_THAT(told(with("[[-1, 0], [4, 0]]", "[[-1, 0], [4, 0]]\n    - vertices: " + closed + "\n    - vertices: " + box,
+                       with("{x: -0.3}, {x: 0.25}, {x: 0}", "{chain: 0, s: 0.7}, {chain: 0, s: 1.25}, null"))),
+             Catch::Contains("remark: the free sides of chains 1, 2 are their insides, where the start does not lie"));
   // A tunnel that somebody walks in.
   CHECK_THAT(told(with_chain("[[3.5, .01], [3.5, 1.6], [-.8, 1.6], [-.8, .01]]",
                              with("{x: -0.3}, {x: 0.25}, {x: 0}", "{chain: 0, s: 0.7}, {chain: 0, s: 1.25}, null"))),
@@ -261,7 +269,7 @@ TEST_CASE("A start that cannot stand is refused with its cause by plan and valid
       {with("kappa: 0.1", "kappa: 0.7"), level + "0.6 of the weight, kappa is 0.7"},
       {with("kappa: 0.1", "kappa: 0.6"), level + "0.6 of the weight, kappa is 0.6"},
       {with("kappa: 0.1", "kappa: 0", with("0.6", "0")),
-       "no COM balances on feet 1 and 2: friction bears no sideways push, kappa is 0"},
+       "no COM balances on feet 1 and 2: without friction they bear no sideways push, however small"},
       {with("nu: 0.03", "nu: 0.3"), none + " every disturbance: nu = 0.3 m alone is too much"},
       {with("{x: 0.25}", "{x: -0.29}"),
        none + " every disturbance: nu = 0.03 m alone is too much for feet 0.01 m apart"},

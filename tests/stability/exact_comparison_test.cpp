@@ -49,7 +49,8 @@ TEST_CASE("Answers for lines agree with an exact decision at every point of them
     CHECK(counts.robust > 0);
     CHECK(counts.robust < counts.cases);
     if (kind == LineKind::slender) CHECK(counts.inside > 0);
-    if (kind == LineKind::stable_ends || kind == LineKind::slender || kind == LineKind::random)
+    if (kind == LineKind::stable_ends || kind == LineKind::slender || kind == LineKind::random ||
+        kind == LineKind::tied)
       CHECK(counts.uncertain == 0);
   }
 }

@@ -42,6 +42,25 @@ TEST_CASE("escapes stand for characters, always as UTF-8", "[document]") {
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(document.root().items("list")[i].text("text") == expected[i]);
 }
 
+TEST_CASE("JSON's pairs of escapes beyond U+FFFF are one character, and escapes of backslashes none", "[document]") {
+  const Document document =
+      parse(R"( {"a": "\ud83e\udd16 \u00e9", "b": ["\\\ud83d\ude00", "\\ud83e\\udd16", "\uDBFF\uDFFF"], "c": "\ud)" +
+            std::string(R"(7ff"})"));
+  const Node& root = document.root();
+  CHECK(root.require("a", "x").text("a") == "\U0001f916 \u00e9");
+  const auto& b = root.require("b", "x").items("b");
+  CHECK(b[0].text("b") == "\\\U0001f600");
+  CHECK(b[1].text("b") == "\\ud83e\\udd16");
+  CHECK(b[2].text("b") == "\U0010ffff");
+  CHECK(root.require("c", "x").text("c") == "\ud7ff");
+  // Half a pair is no character, and what is not JSON has escapes of its own.
+  for (const std::string alone : {R"({"a": "\ud83e"})", R"({"a": "\udd16\ud83e"})", R"({"a": "\ud83e\u0041"})"})
+    CHECK_THAT(parse_error(alone), Catch::Contains("invalid unicode"));
+  CHECK(parse(R"(a: '\ud83e\udd16')").root().require("a", "x").text("a") == R"(\ud83e\udd16)");
+  for (const std::string cut : {"{\"a\": \"\\", "{\"a\": \"\\u", "{\"a\": \"\\ud83e\\udd1", "{"})
+    CHECK_FALSE(parse_error(cut).empty());
+}
+
 TEST_CASE("traps of the parser are refused with their place", "[document]") {
   const std::vector<Refusal> refusals{
       {"- {x: 0}\nfriction: 0.5\n",
@@ -67,6 +86,7 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"a: \"x\\\"\nb: 3\n", "f.yaml:1:4: this quote is never closed; expected another \""},
       {"{\"a\": 1,, \"b\": 2}", "f.yaml:1:9: nothing before the comma; expected a key"},
       {"{, a: 1}", "f.yaml:1:2: nothing before the comma; expected a key"},
+      {"{\"a\"\n: 1}", "f.yaml:1:2: this key ends its line; expected its colon on the same line"},
       {"{: 1}", "f.yaml:1:2: nothing before the colon; expected a key"},
       {"a: 'it''s\n", "f.yaml:1:4: this quote is never closed; expected another '"},
       {"a: [1, 2\nb: 3\n",

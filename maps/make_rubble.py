@@ -59,6 +59,10 @@ def main():
     parser.add_argument("time_limit", type=float, help="of the search [s]")
     parser.add_argument("--gentle", action="store_true", help="kilometres that can be walked")
     a = parser.parse_args()
+    if not a.length > 0 or not a.time_limit > 0:
+        parser.error("LENGTH and TIME_LIMIT are greater than 0")
+    if not all(c.isalnum() or c in "_-" for c in a.name) or not a.name:
+        parser.error("NAME: expected letters, digits, - and _")
     name, length, time_limit = a.name, a.length, a.time_limit
     vertices, overrides = profile(length, random.Random(a.seed), a.gentle)
     rows = [vertices[i:i + 6] for i in range(0, len(vertices), 6)]

@@ -1,6 +1,7 @@
 // Scenes and a plan made by hand, whose every number follows from a line of reasoning, for the tests of gaits/.
 #pragma once
 
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,6 +70,37 @@ inline Plan plan_by_hand(const Scene& scene) {
   plan.transfers = {{2, third, 0, sigma, ""}, {0, fourth, 1, sigma, ""}};
   plan.safety_factor = sigma;
   return plan;
+}
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// A walk along level ground, one foot every 0.4 m: feet 1 2 3 1 2 3 ... (a picture needs no verified plan).
+inline Plan long_walk(const Scene& scene, int steps, double from) {
+  Plan plan;
+  plan.scene = scene.name;
+  plan.status = Status::solved;
+  plan.safety_factor = 2.5;
+  const double begin = scene.terrain.segments().front().a.x();
+  const auto foot = [&](int k) { return scene.terrain.foothold_at(0, from + 0.4 * k - begin).value(); };
+  for (int k = 0; k <= steps; ++k) {
+    Stance stance{{}, {from + 0.4 * k + 0.2, 0.5}, 2.5 + 0.01 * k, "equilibrium"};
+    stance.feet[k % 3] = foot(k);
+    stance.feet[(k + 1) % 3] = foot(k + 1);
+    plan.stances.push_back(stance);
+    if (k < steps) plan.transfers.push_back({(k + 2) % 3, foot(k + 2), k % 3, 2.5, "UFF"});
+  }
+  return plan;
+}
+
+inline Scene long_ground() {
+  Scene scene = scene_on({chain({{-120, 0}, {120, 0}})});
+  scene.start.feet = {};
+  return scene;
 }
 
 }  // namespace surefoot::gaits::testing

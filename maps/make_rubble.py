@@ -7,6 +7,7 @@ The same arguments give the same bytes. Standard library only. Over hundreds of 
 canned scenes comes, sooner or later, to a place that nobody passes; --gentle makes kilometres that can be walked.
 """
 import argparse
+import os
 import random
 import sys
 
@@ -79,4 +80,8 @@ def main():
     print("search: {time_limit: %g}" % time_limit)
 
 
-main()
+try:
+    main()
+    sys.stdout.flush()
+except BrokenPipeError:  # whoever read has seen enough
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -92,9 +92,9 @@ bool AnytimeSearch::begin(double scale) {
 }
 
 stability::DisturbanceBox AnytimeSearch::box() const {
-  stability::DisturbanceBox box = proposals_->box();
-  box.kappa *= scale_, box.nu *= scale_;
-  return box;
+  if (scale_ <= 1) return proposals_->box();
+  const stability::DisturbanceBox& given = proposals_->scene().disturbance;
+  return {scale_ * given.kappa, scale_ * given.nu};
 }
 
 int AnytimeSearch::level() const { return stage_at(stage_, options_.companion).level; }

@@ -104,7 +104,10 @@ std::vector<int> inside_out(const gaits::Scene& scene) {
 }
 
 std::optional<terrain::BackFace> back_face(const gaits::Scene& scene) {
-  return terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max, start_boxes(scene), too_low(scene.robot));
+  std::vector<terrain::Foothold> feet;
+  for (const auto& foot : scene.start.feet)
+    if (foot) feet.push_back(*foot);
+  return terrain::back_face_seen(scene.terrain, 2 * scene.robot.reach_max, feet, too_low(scene.robot));
 }
 
 std::string inside_out_remark(const gaits::Scene& scene) {
@@ -139,16 +142,16 @@ bool is_wrong_way(const gaits::Scene& scene, int chain) {
   return std::count(obstacles.begin(), obstacles.end(), chain) > 0 || (seen && seen->chain == chain);
 }
 
-/// Coordinates so large that what is left of their digits is coarse beside the robot.
+/// Feet so far from the origin that what is left of their digits is coarse beside the robot.
 std::string coarse_remark(const gaits::Scene& scene) {
   constexpr double coarse = 1e-6;  // relative to the greatest reach
-  const auto bounds = scene.terrain.bounds();
-  const double farthest = std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
+  double farthest = 0;
+  for (const auto& box : start_boxes(scene)) farthest = std::max(farthest, box.min().cwiseAbs().maxCoeff());
   const double apart = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
   if (apart <= coarse * scene.robot.reach_max) return "";
   return fmt::format(
-      "coordinates go up to {:.6g} m, where numbers are {:.3g} m apart, and the greatest reach is {:.6g} m: is the "
-      "origin meant to be so far away?",
+      "the start is {:.6g} m from the origin, where numbers are {:.3g} m apart, and the greatest reach is {:.6g} m: is "
+      "the origin meant to be so far away?",
       farthest, apart, scene.robot.reach_max);
 }
 

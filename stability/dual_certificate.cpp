@@ -330,6 +330,7 @@ bool may_be_at_most_zero(const Row<double>& terms) { return !(terms.p + terms.on
 template <class K>
 bool borders_prove(const ModeSpec& spec, const LoadedEdges& edges, const TwistCone<K>& cone, const DisturbanceBox& box,
                    const Frame<K>& frame_a, const Frame<K>& frame_b) {
+  if (spec.kind == Kind::all_break || cone.free_rotation) return false;  // no Z is positive on all of K
   const K rho2 = frame_a.rho2;
   // Z = (x, y, rho^2 m) about every COM: Z . M^-1 v = x p + y + m q.
   const auto proves = [&](const K& x, const K& y, const K& m) {
@@ -355,7 +356,6 @@ bool borders_prove(const ModeSpec& spec, const LoadedEdges& edges, const TwistCo
 }  // namespace
 
 bool DualCertificate::may_prove_on_border(const Frame<double>& a, const Frame<double>& b) const {
-  if (spec_.kind == Kind::all_break || cone_.free_rotation) return false;
   return borders_prove(spec_, edges_, cone_, line_.box, a, b);
 }
 

@@ -72,7 +72,7 @@ class DualCertificate {
   /// Whether (±1, kappa, 0) or (0, nu, ±rho^2) about all COMs, which read 0 on a side of W and nothing negative on it,
   /// prove the mode infeasible between the COMs of the frames. Where Z is positive on K, the inequalities (*) need not
   /// be strict: so are proved modes that W only touches, where kappa is a friction coefficient or W has no extent along
-  /// an axis. Exact; of a mode for which, in doubles, they may.
+  /// an axis. Exact, and dear; `may_prove_on_border` tells in doubles where asking is in vain.
   bool proves_on_border(const Frame<Dyadic>& frame_a, const Frame<Dyadic>& frame_b) const;
   bool may_prove_on_border(const Frame<double>& frame_a, const Frame<double>& frame_b) const;
   const TwistCone<double>& cone() const { return cone_; }

@@ -185,8 +185,9 @@ class Run {
   }
 
   /// When the body leaves the neighbourhood in a flight of that duration, if it does: it may come back before the end.
-  /// Looked for at moments near each other: it turns by a quarter of a radian at most in between, unless it spins
-  /// more than 1000 rad.
+  /// Looked for at the apex and at moments near each other: it turns by a quarter of a radian at most in between,
+  /// unless it spins more than 1000 rad. A contact of a spinning body may be out in between by the little that it turns
+  /// on.
   std::optional<double> time_to_leave(double duration) const {
     if (farthest_in_flight(duration) <= options_.neighbourhood) return std::nullopt;
     const auto is_out = [&](double s) {
@@ -197,8 +198,10 @@ class Run {
     constexpr int halvings = 60;
     constexpr double fewest = 64, most = 4096;
     const int looks = static_cast<int>(std::min(most, fewest + 4 * std::abs(state_.omega) * duration));
+    const double apex = state_.v.y() / body_.gravity();
     for (int k = 1; k <= looks; ++k) {
       double low = duration * (k - 1) / looks, high = duration * k / looks;
+      if (low < apex && apex < high && is_out(apex)) high = apex;
       if (!is_out(high)) continue;
       for (int i = 0; i < halvings; ++i) {
         const double middle = 0.5 * (low + high);

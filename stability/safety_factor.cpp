@@ -229,7 +229,7 @@ class LineMinimum {
       if (lambda >= 1) return;
       const double probe = std::min(1.0, lambda + step);
       step *= 2;
-      if (std::min(scale(spec, lambda), scale(spec, probe)) < best) descend(spec, lambda, best, best_lambda);
+      if (std::min(scale(spec, lambda), scale(spec, probe)) < best) descend(spec, lambda, probe, best, best_lambda);
       lambda = probe;
     }
   }
@@ -248,9 +248,11 @@ class LineMinimum {
     best_lambda = lambda;
   }
 
-  /// Doubling steps to the right until the scale rises, then golden-section search.
-  void descend(const ModeSpec& spec, double lambda, double& best, double& best_lambda) const {
+  /// Doubling steps to the right until the scale rises, then golden-section search. The scale may jump where rows
+  /// vanish (a COM straight above a foot): what both looked at counts, whatever the search makes of it.
+  void descend(const ModeSpec& spec, double lambda, double probe, double& best, double& best_lambda) const {
     consider(spec, lambda, best, best_lambda);
+    consider(spec, probe, best, best_lambda);
     double left = lambda, middle = lambda, step = 1e-9, value = scale(spec, lambda);
     double right = lambda;
     while (right < 1) {
@@ -322,10 +324,16 @@ LineSafetyFactor RobustOracle::line_safety_factor(const Vector2d& from, const Ve
     double best = result.least.value, lambda = result.lambda;
     search.lower(spec, best, lambda);
     if (!(best < result.least.value)) continue;
-    ModeFactors there(posture_, search.at(lambda), box_);
-    best = result.least.value;
-    there.lower(spec, best);
-    if (best < result.least.value) result = {there.least_or(result.least), lambda};
+    // Doubles may have followed it to a place where rows vanish and it jumps; then it is as low beside.
+    for (const double aside : {0.0, -0x1p-40, 0x1p-40, -0x1p-30, 0x1p-30, -0x1p-20, 0x1p-20}) {
+      const double at = std::clamp(lambda + aside, 0.0, 1.0);
+      ModeFactors there(posture_, search.at(at), box_);
+      best = result.least.value;
+      there.lower(spec, best);
+      if (!(best < result.least.value)) continue;
+      result = {there.least_or(result.least), at};
+      break;
+    }
   }
   result = made_consistent(result, *this, from, to);
   tidy(result.least);

@@ -112,8 +112,8 @@ std::vector<ChainShape> shapes_of_chains(const Terrain& terrain) {
 
 }  // namespace
 
-std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
-                                       std::span<const Eigen::AlignedBox2d> inhabited, double room) {
+std::optional<BackFace> back_face_seen(const Terrain& terrain, double within, std::span<const Foothold> feet,
+                                       double room) {
   const auto& segments = terrain.segments();
   const std::size_t rays = rays_of(terrain, segments.size());  // of each kind
   const auto chains = shapes_of_chains(terrain);
@@ -121,7 +121,13 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
   const auto counts = [&](int chain) {
     if (is_obstacle[static_cast<std::size_t>(chain)]) return false;
     const ChainShape& shape = chains[static_cast<std::size_t>(chain)];
-    if (shape.twice_area >= 0 || is_inhabited(shape, inhabited) || !stands_on_ground(terrain, shape, room)) return true;
+    const auto is_inside = [&](const Foothold& foot) {
+      const Eigen::AlignedBox2d at(foot.position);
+      return foot.chain != chain && is_inhabited(shape, {&at, 1});
+    };
+    if (shape.twice_area >= 0 || std::any_of(feet.begin(), feet.end(), is_inside) ||
+        !stands_on_ground(terrain, shape, room))
+      return true;
     is_obstacle[static_cast<std::size_t>(chain)] = true;
     return false;
   };
@@ -131,7 +137,9 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
     if (own.surface.foothold)
       if (const auto seen = back_face_along(terrain, middle, own.normal, within, &own); seen && counts(seen->chain))
         return seen;
-    // What looks at this one's back; its own chain does not, but is met where the ray leaves its solid at a vertex.
+    // What looks at this one's back, be it ground or ceiling: a wall that stands for a cliff has nothing behind it. Its
+    // own chain does not, but is met where the ray leaves its solid at a vertex.
+    if (std::abs(own.normal.y()) < level) continue;
     const Sight behind = look(terrain, middle, -own.normal, within, &own);
     const bool is_front = behind.met != nullptr && !behind.back && behind.met->chain != own.chain;
     if (is_front && behind.met->surface.foothold && counts(own.chain))

@@ -18,11 +18,11 @@ struct BackFace {
 };
 
 /// The first met by rays of length `within` [m] from the middles of segments on which a foot may stand, along their
-/// normals, or whose own middle is seen so, against its normal. Every such segment is asked where there are few, an
-/// even choice of them where there are many. Obstacles that are open below, their ends at most `room` [m] above other
-/// ground, may show their inside, if none of the `inhabited` boxes is there.
-std::optional<BackFace> back_face_seen(const Terrain& terrain, double within,
-                                       std::span<const Eigen::AlignedBox2d> inhabited, double room);
+/// normals, or ground or ceiling whose own middle is seen so, against its normal. Every segment is asked where there
+/// are few, an even choice of them where there are many. Obstacles that are open below, their ends at most `room` [m]
+/// above other ground, may show their inside, if none of the `feet` is there (those that stand on them are not).
+std::optional<BackFace> back_face_seen(const Terrain& terrain, double within, std::span<const Foothold> feet,
+                                       double room);
 
 /// The first met by rays of that length straight up and down from the points; of many points an even choice is asked.
 std::optional<BackFace> back_face_over(const Terrain& terrain, std::span<const Point> points, double within);

@@ -43,10 +43,10 @@ class DocumentBuilder : public YAML::EventHandler {
     Node node = make(mark);
     if (expects_key()) {
       const auto at = static_cast<std::size_t>(mark.pos);
-      const char there = at < source_.text.size() ? source_.text[at] : ' ';
-      fail(mark, there == ','                    ? "nothing before the comma; expected a key"
-                 : there == '"' || there == '\'' ? "this key ends its line; expected its colon on the same line"
-                                                 : "nothing before the colon; expected a key");
+      const bool comma = at < source_.text.size() && source_.text[at] == ',';
+      fail(mark, comma                                ? "nothing before the comma; expected a key"
+                 : source_.has_colon_on_next_line(at) ? "this key ends its line; expected its colon on the same line"
+                                                      : "nothing before the colon; expected a key");
     }
     // A value left out is marked where the parser noticed, often a line later; its key says it better.
     if (in_map() && !written_null(mark)) {
@@ -261,7 +261,7 @@ Document Document::parse(std::string_view text, std::string name, FaultList* fau
   Document document;
   Source& source = *document.source_;
   source.name = std::move(name);
-  source.text = with_surrogates_joined(text);
+  source.take(text);
   source.faults = faults;
   source.check_characters();
   if (source.text.starts_with("<"))

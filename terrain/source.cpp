@@ -52,28 +52,35 @@ bool is_control(std::string_view text, std::size_t i) {
 
 namespace {
 
-/// The column in characters of a column in bytes.
-std::size_t character_column(std::string_view text, std::size_t line, std::size_t byte_column) {
+/// Where a line counted from 0 begins.
+std::size_t begin_of_line(std::string_view text, std::size_t line) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < line; ++i) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;
     begin = end + 1;
   }
-  std::size_t column = byte_column;
-  const std::size_t end = std::min(text.size(), begin + byte_column);
-  for (std::size_t i = begin; i < end; ++i) column -= continues(text, i);
-  return column;
+  return begin;
 }
 
 }  // namespace
 
+/// The column in characters, as given, of a column in bytes.
+std::size_t Source::character_column(std::size_t line, std::size_t byte_column) const {
+  constexpr std::size_t saved = 2;  // characters by each pair of escapes that is joined
+  std::size_t column = byte_column;
+  const std::size_t begin = begin_of_line(text, line), end = std::min(text.size(), begin + byte_column);
+  for (std::size_t i = begin; i < end; ++i) column -= continues(text, i);
+  const auto first = std::upper_bound(joined.begin(), joined.end(), begin);
+  return column + saved * static_cast<std::size_t>(std::upper_bound(first, joined.end(), end) - first);
+}
+
 std::string Source::place(std::size_t line, std::size_t byte_column) const {
-  return name + ":" + std::to_string(line + 1) + ":" + std::to_string(character_column(text, line, byte_column) + 1);
+  return name + ":" + std::to_string(line + 1) + ":" + std::to_string(character_column(line, byte_column) + 1);
 }
 
 InputError Source::error(std::size_t line, std::size_t byte_column, const std::string& message) const {
-  return InputError(place(line, byte_column) + ": " + message, line + 1, character_column(text, line, byte_column) + 1);
+  return InputError(place(line, byte_column) + ": " + message, line + 1, character_column(line, byte_column) + 1);
 }
 
 std::string_view Source::line_before(std::size_t position) const {
@@ -109,18 +116,35 @@ void Source::check_characters() const {
   }
 }
 
-void Source::check_quotes(std::size_t position) const {
-  const char quote = position < text.size() ? text[position] : '\0';
-  if (quote != '"' && quote != '\'') return;
+namespace {
+
+bool is_quote(std::string_view text, std::size_t i) { return i < text.size() && (text[i] == '"' || text[i] == '\''); }
+
+/// Behind the quoted scalar that begins at `position`; npos if it never ends.
+std::size_t end_of_quoted(std::string_view text, std::size_t position) {
+  const char quote = text[position];
   for (std::size_t i = position + 1; i < text.size(); ++i) {
     if (quote == '"' && text[i] == '\\') {
       ++i;
     } else if (text[i] == quote) {
-      if (quote == '"' || i + 1 >= text.size() || text[i + 1] != quote) return;
+      if (quote == '"' || i + 1 >= text.size() || text[i + 1] != quote) return i + 1;
       ++i;
     }
   }
-  fail_at(position, std::string("this quote is never closed; expected another ") + quote);
+  return std::string_view::npos;
+}
+
+}  // namespace
+
+void Source::check_quotes(std::size_t position) const {
+  if (!is_quote(text, position) || end_of_quoted(text, position) != std::string::npos) return;
+  fail_at(position, std::string("this quote is never closed; expected another ") + text[position]);
+}
+
+bool Source::has_colon_on_next_line(std::size_t position) const {
+  const std::size_t end = is_quote(text, position) ? end_of_quoted(text, position) : std::string::npos;
+  const std::size_t next = text.find_first_not_of(" \t\r\n", end);
+  return end != std::string::npos && next != std::string::npos && text[next] == ':' && text.find('\n', end) < next;
 }
 
 std::string well_formed(std::string_view value) {
@@ -136,36 +160,39 @@ std::string well_formed(std::string_view value) {
 
 namespace {
 
-/// Of an escape "\uXXXX" at i; -1 if there is none.
+constexpr std::size_t escape_length = 6;  // of "\uXXXX"
+
+/// Of such an escape at i; -1 if there is none.
 long escaped_unit(std::string_view text, std::size_t i) {
-  constexpr std::size_t digits = 4;
-  if (i + 2 + digits > text.size() || text.substr(i, 2) != "\\u") return -1;
+  if (i + escape_length > text.size() || text.substr(i, 2) != "\\u") return -1;
   unsigned unit = 0;
-  const char* begin = text.data() + i + 2;
-  const auto [end, error] = std::from_chars(begin, begin + digits, unit, 16);
-  return error == std::errc() && end == begin + digits ? static_cast<long>(unit) : -1;
+  const char *begin = text.data() + i + 2, *end = text.data() + i + escape_length;
+  const auto [last, error] = std::from_chars(begin, end, unit, 16);
+  return error == std::errc() && last == end ? static_cast<long>(unit) : -1;
 }
 
 }  // namespace
 
-std::string with_surrogates_joined(std::string_view text) {
-  const auto is_json = text.find_first_not_of(" \t\r\n");
-  if (is_json == std::string_view::npos || text[is_json] != '{') return std::string(text);
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    const long high = escaped_unit(text, i), low = escaped_unit(text, i + 6);
+void Source::take(std::string_view given) {
+  const auto first = given.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || given[first] != '{') {
+    text = given;
+    return;
+  }
+  for (std::size_t i = 0; i < given.size();) {
+    const long high = escaped_unit(given, i), low = escaped_unit(given, i + escape_length);
     if (high >= 0xD800 && high <= 0xDBFF && low >= 0xDC00 && low <= 0xDFFF) {
       std::array<char, 16> escape;
       std::snprintf(escape.data(), escape.size(), "\\U%08lX", 0x10000 + ((high - 0xD800) << 10) + (low - 0xDC00));
-      result += escape.data();
-      i += 12;
+      text += escape.data();
+      joined.push_back(text.size());
+      i += 2 * escape_length;
     } else {
-      const std::size_t length = text[i] == '\\' ? 2 : 1;  // an escaped backslash begins no escape
-      result += text.substr(i, length);
+      const std::size_t length = given[i] == '\\' ? 2 : 1;  // an escaped backslash begins no escape
+      text += given.substr(i, length);
       i += length;
     }
   }
-  return result;
 }
 
 std::string read_all(std::FILE* file, const std::string& name) {

@@ -55,8 +55,11 @@ TEST_CASE("Terrains in millimetres are remarked on, large ones are not", "[valid
   place.write("s.yaml", with("[0.2, 0.9]", "[2.0e-7, 9.0e-7]",
                              with("0.15", "1.0e-7", with("-0.3", "-3.0e-7", with("0.25", "2.5e-7", flat_scene)))));
   CHECK_THAT(place.run("validate s.yaml").out, Catch::Contains("remark: the greatest reach is 9e-07 m: are all"));
-  CHECK_THAT(told("[[-1, 0], [1.0e+12, 0]]"),
-             Catch::Contains("remark: coordinates go up to 1e+12 m, where numbers are 0.000122 m apart"));
+  place.write("s.yaml", with("{x: -0.3}, {x: 0.25}, {x: 0}", "{x: 1000000000000.7}, {x: 1000000000001.25}, null",
+                             with("[[-1, 0], [4, 0]]", "[[1.0e+12, 0], [1000000000004, 0]]")));
+  CHECK_THAT(place.run("validate s.yaml").out,
+             Catch::Contains("remark: the start is 1e+12 m from the origin, where numbers are 0.000122 m apart"));
+  CHECK_THAT(told("[[-1, 0], [4, 0]]\n    - vertices: [[7, 1.0e+20], [8, 1.0e+20]]"), !Catch::Contains("remark"));
   for (const std::string large :
        {"[[-1000, 0], [4000, 0]]", "[[-1000, 0], [500, 0], [500, 0.15], [900, 0.15], [4000, 0]]",
         "[[-1, 1], [-1, 0], [99, 0], [99, 1]]", "[[-99, 0], [99, 0], [199, 5], [299, 0]]",

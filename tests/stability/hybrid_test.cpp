@@ -307,6 +307,12 @@ TEST_CASE("A body thrown up leaves its neighbourhood at the height of it, also i
   }
   options.neighbourhood = 1.001 * apex;
   CHECK(simulate(body, start, options).outcome == HybridRun::Outcome::rest);
+  // From above the ground, so that the way down is longer than the way up.
+  const BodyState above = body.state_at({0, 0.1, 0}, {0, speed, 0});
+  options.neighbourhood = (0.1 + apex) * (1 - 1e-9);
+  CHECK(simulate(body, above, options).outcome == HybridRun::Outcome::left);
+  options.neighbourhood = (0.1 + apex) * (1 + 1e-9);
+  CHECK(simulate(body, above, options).outcome == HybridRun::Outcome::rest);
 }
 
 TEST_CASE("Linearised and nonlinear runs agree to the order of the push", "[hybrid]") {

@@ -5,12 +5,14 @@
 
 #include "tests/support/agreement.hpp"
 #include "tests/support/direct_reference.hpp"
+#include "tests/support/exact_cases.hpp"
 #include "tests/support/rounds.hpp"
 
 using namespace surefoot::testing;
 using surefoot::stability::LineSafetyFactor;
 using surefoot::stability::LineVerdict;
 using surefoot::stability::RobustOracle;
+using surefoot::test::rounds;
 using Outcome = LineVerdict::Outcome;
 
 namespace {
@@ -201,7 +203,7 @@ TEST_CASE("Verdict and least safety factor on a line agree with dense sampling",
   Sampler sampler(seed);
   Counts counts;
   INFO("seed " << seed);
-  for (int round = 0; round < surefoot::test::rounds(30); ++round) {
+  for (int round = 0; round < rounds(30); ++round) {
     for (const Kind kind : all_kinds) {
       const SamplePosture sample = sampler.posture(kind);
       compare_line(sample, sampler.com_near(sample.contacts), 60, counts);
@@ -229,11 +231,68 @@ TEST_CASE("Lines with stable ends agree with dense sampling", "[line]") {
   CHECK(counts.uncertain == 0);
 }
 
+namespace {
+
+SamplePosture scaled(SamplePosture sample, double s) {
+  sample.box.kappa *= s, sample.box.nu *= s;
+  return sample;
+}
+
+/// The least factor on a line, decided exactly: a little below it no COM looked at fails, a little above it one does,
+/// where it is said to be or beside.
+void check_least_factor(const SamplePosture& sample, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  INFO(sample.json() << " com_to " << to.transpose());
+  const RobustOracle oracle(sample.contacts, sample.rho, sample.box);
+  const LineSafetyFactor found = oracle.line_safety_factor(from, to);
+  const double value = found.least.value;
+  INFO("factor " << value << " at lambda " << found.lambda);
+  constexpr double greatest = 1e5, slack = 1e-6;
+  const auto robust = [&](const ExactPosture& exact, double lambda) {
+    return exact.robust(exact.frame(ExactCom(from, to, lambda)));
+  };
+  const ExactPosture below(scaled(sample, std::min(value, greatest) * (1 - slack)));
+  for (int k = 0; k <= 32 && value > 0; ++k) CHECK(robust(below, k / 32.0));
+  if (value > greatest) return;
+  const ExactPosture above(scaled(sample, std::max(value * (1 + slack), 1e-9)));
+  bool fails = false;
+  for (const double aside : {0.0, 0x1p-40, -0x1p-40, 0x1p-30, -0x1p-30})
+    fails = fails || !robust(above, std::clamp(found.lambda + aside, 0.0, 1.0));
+  CHECK(fails);
+}
+
+}  // namespace
+
+TEST_CASE("The least safety factor on a line is no greater than that of any COM of it, also where rows vanish",
+          "[line][exact]") {
+  Sampler sampler(77);
+  int lines = 0;
+  for (int round = 0; round < rounds(300); ++round) {
+    const LineFamily family = line_family(round % 3 == 0 ? LineKind::grid : LineKind::tied, sampler);
+    for (const auto& [from, to] : family.lines) {
+      if (family.sample.box.kappa == 0 && family.sample.box.nu == 0) continue;
+      check_least_factor(family.sample, from, to);
+      ++lines;
+    }
+  }
+  CHECK(lines > rounds(300));
+  // Torques are not disturbed, and the line passes straight above a foot: beside it W touches the edge of that foot's
+  // cone at mu / kappa; at that very place rows vanish and nothing happens.
+  SamplePosture sample;
+  sample.contacts = {{{-0.5, 0}, {0, 1}, 1}, {{0.25, 0}, {0, 1}, 0.125}, {{0.5, -0.35431687108220733}, {0, 1}, 0.6}};
+  sample.rho = 0.2;
+  for (const double kappa : {0.1, 0.13}) {
+    sample.box = {kappa, 0};
+    const RobustOracle oracle(sample.contacts, sample.rho, sample.box);
+    const LineSafetyFactor found = oracle.line_safety_factor({0.25, 0.578125}, {0.25, -0.125});
+    CHECK(found.least.value == Approx(0.125 / kappa).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("Equilibrium on a line follows from its ends, factor included", "[line]") {
   const std::uint64_t seed = 55;
   Sampler sampler(seed);
   int finite = 0;
-  for (int round = 0; round < surefoot::test::rounds(40); ++round) {
+  for (int round = 0; round < rounds(40); ++round) {
     for (const Kind kind : all_kinds) {
       const SamplePosture sample = sampler.posture(kind);
       const Eigen::Vector2d to = sampler.com_near(sample.contacts);

@@ -46,8 +46,19 @@ TEST_CASE("An obstacle that stands on the ground, open below, may show its insid
   CHECK_FALSE(back_face_seen(Terrain({floor, chain(box)}), 1.5, {}, 0.11));
   CHECK(back_face_seen(Terrain({floor, chain(box)}), 1.5, {}, 0.09));  // too high to stand
   // Who stands in it sees a vault that is given like ground.
-  const std::vector<Eigen::AlignedBox2d> inside{Eigen::AlignedBox2d(Point(0.1, 0))};
+  const std::vector<Foothold> inside{{.chain = 0, .position = Point(0.1, 0)}};
   CHECK(back_face_seen(Terrain({floor, chain(box)}), 1.5, inside, 0.11));
+  // Who stands on it, or beside, does not.
+  const std::vector<Foothold> on_it{{.chain = 1, .position = Point(0.1, 0.3)}, {.position = Point(0.5, 0)}};
+  CHECK_FALSE(back_face_seen(Terrain({floor, chain(box)}), 1.5, on_it, 0.11));
+  const std::vector<Point> wide{{-0.9, 0.1}, {-0.9, 0.3}, {0.2, 0.3}, {0.2, 0.1}};  // its middle over no middle
+  CHECK_FALSE(back_face_seen(Terrain({floor, chain(wide)}), 1.5, on_it, 0.11));
+}
+
+TEST_CASE("A step down behind a gap whose near wall alone is given shows no back", "[back_faces]") {
+  const Chain before = chain({{-1, 0}, {0.5, 0}, {0.5, -1}}),
+              behind = chain({{1, 0}, {1.5, 0}, {1.5, -0.3}, {4, -0.3}});
+  CHECK_FALSE(back_face_seen(Terrain({before, behind}), 1.8, {}, 0.2));
 }
 
 TEST_CASE("Ground given the wrong way round is told from ceilings", "[back_faces]") {

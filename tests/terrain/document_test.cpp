@@ -53,6 +53,9 @@ TEST_CASE("JSON's pairs of escapes beyond U+FFFF are one character, and escapes 
   CHECK(b[1].text("b") == "\\ud83e\\udd16");
   CHECK(b[2].text("b") == "\U0010ffff");
   CHECK(root.require("c", "x").text("c") == "\ud7ff");
+  // Places are those of the text as given.
+  CHECK_THAT(parse_error("{\"a\": \"\\ud83e\\udd16\\ud83e\\udd16\", \"b\": ]}"), Catch::StartsWith("f.yaml:1:40:"));
+  CHECK_THAT(parse_error("{\"a\": \"\\ud83e\\udd16\",\n \"b\": ]}"), Catch::StartsWith("f.yaml:2:7:"));
   // Half a pair is no character, and what is not JSON has escapes of its own.
   for (const std::string alone : {R"({"a": "\ud83e"})", R"({"a": "\udd16\ud83e"})", R"({"a": "\ud83e\u0041"})"})
     CHECK_THAT(parse_error(alone), Catch::Contains("invalid unicode"));
@@ -87,6 +90,7 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"{\"a\": 1,, \"b\": 2}", "f.yaml:1:9: nothing before the comma; expected a key"},
       {"{, a: 1}", "f.yaml:1:2: nothing before the comma; expected a key"},
       {"{\"a\"\n: 1}", "f.yaml:1:2: this key ends its line; expected its colon on the same line"},
+      {"[\"a\": 1, {\"a\"\n, : 3}]", "f.yaml:1:11: nothing before the colon; expected a key"},
       {"{: 1}", "f.yaml:1:2: nothing before the colon; expected a key"},
       {"a: 'it''s\n", "f.yaml:1:4: this quote is never closed; expected another '"},
       {"a: [1, 2\nb: 3\n",

@@ -135,7 +135,7 @@ std::optional<BackFace> back_face_seen(const Terrain& terrain, double within, st
     const Segment& own = segments[k * segments.size() / rays];
     const Point middle = 0.5 * (own.a + own.b);
     if (own.surface.foothold)
-      if (const auto seen = back_face_along(terrain, middle, own.normal, within, &own); seen && counts(seen->chain))
+      if (auto seen = back_face_along(terrain, middle, own.normal, within, &own); seen && counts(seen->chain))
         return seen;
     // What looks at this one's back, be it ground or ceiling: a wall that stands for a cliff has nothing behind it. Its
     // own chain does not, but is met where the ray leaves its solid at a vertex.

@@ -97,6 +97,7 @@ class Picture {
     Polyline line;
     for (const Vector2d& p : points) line.push_back({x_of(p.x()), y_of(p.y())});
     canvas_.polyline(line, {.stroke = curve, .width = 1.4});
+    if (figure_.events.empty()) canvas_.circle(line.front(), 3, {.fill = curve});  // it ends where it begins
     canvas_.rectangle({left, top_of(row)}, wide, panel, {.stroke = faint, .width = 0.8});
     canvas_.text({left, top_of(row) - 6}, what.label, {.size = 13, .bold = true});
     for (const double v : {low, high})

@@ -11,7 +11,8 @@ using Eigen::Vector2d;
 
 // All in pixels.
 constexpr double widest_page = 1200, narrowest_page = 860, margin = 30;
-constexpr double room_for_legs = 48;    // below what a row shows: numbers of legs, three of which may stand in a pile
+constexpr double room_for_steps = 24;   // above what a row shows: their numbers
+constexpr double room_for_legs = 48;    // below: numbers of legs, three of which may stand in a pile
 constexpr double row_gap = 40;          // below each row, holds its axis
 constexpr double tallest_single = 620;  // a journey shown in one row
 constexpr double widest_reach = 240;    // a robot is not drawn larger than this
@@ -139,8 +140,9 @@ Page lay_out(const Scene& scene, const Plan& plan, double top) {
     if (count > 1) show_ceiling(box, scene, plan, row.x_from - pad, row.x_to + pad);
     const double half_width = free_width / page.scale / 2;
     const double middle = (row.x_from + row.x_to) / 2;
-    row.window = AlignedBox2d(Vector2d(middle - half_width, box.min().y() - std::max(pad, room_for_legs / page.scale)),
-                              Vector2d(middle + half_width, box.max().y() + pad));
+    row.window =
+        AlignedBox2d(Vector2d(middle - half_width, box.min().y() - std::max(pad, room_for_legs / page.scale)),
+                     Vector2d(middle + half_width, box.max().y() + std::max(pad, room_for_steps / page.scale)));
     row.view = {{row.window.min().x(), row.window.max().y()}, {margin, y}, page.scale};
     y = row.bottom() + row_gap;
   }

@@ -107,9 +107,9 @@ int run_check(const CheckArguments& arguments) {
   for (const gaits::Fault& fault : verification.faults) faults.push_back(one_line(gaits::to_string(fault)));
   if (outputs.wants("--svg")) outputs.put("--svg", gaits::to_svg(scene, plan, faults));
   if (outputs.wants("--html")) outputs.put("--html", gaits::to_html(scene, plan, faults));
-  if (!outputs.to_stdout()) write_stdout(fault_lines(verification) + verdict(verification, plan) + "\n");
   if (!verification.holds() && plan.scene != scene.name)
     note(fmt::format("the plan is for a scene named {}, this one is {}", plan.scene, scene.name));
+  if (!outputs.to_stdout()) write_stdout(fault_lines(verification) + verdict(verification, plan) + "\n");
   if (const std::string other = verification.holds() ? "" : other_friction(scene, plan); !other.empty()) note(other);
   const bool meant = verification.holds() || plan.scene == scene.name;
   if (const std::string remark = meant ? behind_chain_remark(scene, plan) : ""; !remark.empty())

@@ -52,7 +52,8 @@ enum class Obstacle {
 
 struct Impossibility {
   Obstacle obstacle = Obstacle::barrier;
-  /// Where [m]: between the feet that the start and those that the goal can reach.
+  /// Where [m]: between the feet that the start and those that the goal can reach; the goal's own, where the start can
+  /// reach all of these.
   std::optional<std::pair<double, double>> x, y;
   std::string reason;      ///< a sentence: place, then the rules that suffice to forbid it, with their numbers
   std::uint64_t work = 0;  ///< bounds evaluated

@@ -91,6 +91,13 @@ class Explainer {
   Bounds full_;
   Impossibility result_;
   double gap_ = 0;  // [m] least distance between feet of the two sides
+  // What is passed between the feet of the start's side and those of the goal's.
+  enum class Way {
+    across,     // a stretch in x or in height
+    into_goal,  // none: from the start every foothold of the goal's side is reached
+    unknown     // sides that lie amid each other
+  } way_ = Way::unknown;
+  bool by_height_ = false;  // a stretch in height
 };
 
 // ---- place ------------------------------------------------------------------------------------------------------
@@ -118,11 +125,15 @@ AlignedBox2d Explainer::box_of(const std::set<int>& pieces) const {
   return box;
 }
 
-/// Those that are not among others; all if none is left.
+/// Those that are not among others.
 std::set<int> without(const std::set<int>& pieces, const std::set<int>& others) {
   std::set<int> left;
   std::set_difference(pieces.begin(), pieces.end(), others.begin(), others.end(), std::inserter(left, left.end()));
-  return left.empty() ? pieces : left;
+  return left;
+}
+
+bool are_apart(const AlignedBox2d& a, const AlignedBox2d& b, int axis) {
+  return a.max()[axis] <= b.min()[axis] || b.max()[axis] <= a.min()[axis];
 }
 
 double distance_between(const Piece& p, const Piece& q) {
@@ -145,11 +156,21 @@ void Explainer::place_between(Graph& graph) {
   const std::set<int> start_feet = feet_of(graph, graph.reached());
   const std::set<int> goal_feet = feet_of(graph, graph.reached_from_goal());
   if (start_feet.empty() || goal_feet.empty() || graph.exhausted()) return;
-  const AlignedBox2d start = box_of(without(start_feet, goal_feet)), goal = box_of(without(goal_feet, start_feet));
+  const std::set<int> goal_only = without(goal_feet, start_feet), start_only = without(start_feet, goal_feet);
+  if (goal_only.empty() && !limits_.window) {
+    way_ = Way::into_goal;
+    result_.x = scene_.goal.com_x;
+    result_.y = scene_.goal.com_y;
+    return;
+  }
+  const AlignedBox2d start = box_of(start_only.empty() ? start_feet : start_only),
+                     goal = box_of(goal_only.empty() ? goal_feet : goal_only);
   result_.x = between(start.min().x(), start.max().x(), goal.min().x(), goal.max().x());
-  const bool apart = start.max().y() <= goal.min().y() || goal.max().y() <= start.min().y();
+  const bool apart = are_apart(start, goal, 1);
   if (apart || !scene_.goal.com_x)
     result_.y = between(start.min().y(), start.max().y(), goal.min().y(), goal.max().y());
+  by_height_ = apart && !are_apart(start, goal, 0);
+  way_ = apart || are_apart(start, goal, 0) ? Way::across : Way::unknown;
   constexpr std::size_t few = 2000;  // pairs of feet are looked at
   if (start_feet.size() > few || goal_feet.size() > few) return;
   gap_ = std::numeric_limits<double>::infinity();
@@ -180,9 +201,9 @@ std::string Explainer::goal_words() const {
 }
 
 std::string Explainer::place_words() const {
-  if (result_.obstacle == Obstacle::goal) return goal_words();
+  if (result_.obstacle == Obstacle::goal || way_ == Way::into_goal) return goal_words();
   std::string words = result_.obstacle == Obstacle::start ? "at the start, " : "";
-  const bool by_height = result_.y && (!result_.x || !scene_.goal.com_x);
+  const bool by_height = result_.y && (by_height_ || !result_.x || !scene_.goal.com_x);
   const bool flat = result_.y && number(result_.y->first) == number(result_.y->second);
   if (by_height) return words + interval_words("y", *result_.y) + ": ";
   if (!result_.x) return words.empty() ? "" : words.substr(0, words.size() - 2) + ": ";
@@ -220,7 +241,8 @@ std::string Explainer::gap_words() const {
   }
   if (gap_ > 2 * scene_.robot.reach_max && std::isfinite(gap_))
     return fmt::format("no support pair within reach {} spans the gap of {} m", reach, number(gap_));
-  return fmt::format("no steps lead across the gap with all feet within reach {} of the COM", reach);
+  return fmt::format("no steps lead {} with all feet within reach {} of the COM",
+                     way_ == Way::into_goal ? "there" : "across the gap", reach);
 }
 
 std::string Explainer::rule_words(const Rules& rules) const {
@@ -242,7 +264,9 @@ std::string Explainer::rule_words(const Rules& rules) const {
     case Obstacle::goal: return fmt::format("no COM within reach {} of two feet {}", reach, all);
     case Obstacle::barrier: break;
   }
-  const char* where = result_.x || result_.y ? "across" : "from the start to the goal";
+  const char* where = way_ == Way::into_goal   ? "there"
+                      : result_.x || result_.y ? "across"
+                                               : "from the start to the goal";
   return fmt::format("no steps lead {} with all feet within reach {} of a COM that {}", where, reach, all);
 }
 

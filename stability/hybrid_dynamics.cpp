@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "stability/given.hpp"
+#include "stability/hybrid_flight.hpp"
 #include "stability/hybrid_impact.hpp"
 #include "stability/hybrid_motion.hpp"
 #include "stability/point_test.hpp"
@@ -29,13 +32,14 @@ class Run {
 
   HybridRun go() {
     using enum HybridRun::Outcome;
+    measure(state_);
     while (!ended_) {
       if (!(time_ < options_.time_limit) || run_.collisions + work_of_mode * run_.modes > options_.most_collisions)
         end(undecided);
       else if (!(body_.excursion(state_) <= options_.neighbourhood)) end(left);  // so do numbers that overflow
       else if (!impacts()) none_closed() ? fly() : move();
     }
-    measure();
+    measure(state_);
     run_.state = state_;
     run_.time = time_;
     return run_;
@@ -66,11 +70,13 @@ class Run {
     time_ = sum;
   }
 
-  void measure() { run_.greatest_excursion = std::max(run_.greatest_excursion, body_.excursion(state_)); }
+  void measure(const BodyState& state) {
+    run_.greatest_excursion = std::max(run_.greatest_excursion, body_.excursion(state));
+  }
 
   void tell(Kind kind, int contact, double speed = 0, double duration = 0, const ModeChoice* choice = nullptr) {
     speed_ = std::max(speed_, body_.speed(state_));
-    measure();
+    measure(state_);
     const double energy = body_.energy(state_);
     run_.energy_growth = std::max(run_.energy_growth, energy - energy_);
     energy_ = energy;
@@ -159,12 +165,14 @@ class Run {
       const double s = time_to_contact(body_, state_, i, horizon);
       if (s < soonest) soonest = s, next = i;
     }
-    if (const auto out = time_to_leave(soonest)) {
+    if (const auto out = time_to_leave(body_, state_, soonest, options_.neighbourhood)) {
       body_.fly(state_, *out);
       pass(*out);
       tell(Kind::sample, 0);
       return end(HybridRun::Outcome::left);
     }
+    if (farthest_in_flight(body_, state_, soonest) > run_.greatest_excursion)
+      for (const double s : moments_of_flight(body_, state_, soonest)) measure(flown(body_, state_, s));
     body_.fly(state_, soonest);
     pass(soonest);
     for (int i = 0; i < body_.contacts(); ++i) state_.h[i] = std::max(0.0, state_.h[i]);
@@ -172,44 +180,6 @@ class Run {
       state_.h[next] = 0;
       state_.rate[next] = std::min(0.0, state_.rate[next]);
     }
-  }
-
-  /// Greater than any displacement in a flight of that duration.
-  double farthest_in_flight(double duration) const {
-    const double g = body_.gravity(), up = state_.v.y();
-    const double rise = up > 0 ? up * up / (2 * g) : 0, fall = (0.5 * g * duration - up) * duration;
-    double arm = 0;
-    for (int i = 0; i < body_.contacts(); ++i) arm = std::max(arm, body_.arm(i, state_.theta).norm());
-    return body_.excursion(state_) + std::max(rise, fall) +
-           (std::abs(state_.v.x()) + arm * std::abs(state_.omega)) * duration;
-  }
-
-  /// When the body leaves the neighbourhood in a flight of that duration, if it does: it may come back before the end.
-  /// Looked for at the apex and at moments near each other: it turns by a quarter of a radian at most in between,
-  /// unless it spins more than 1000 rad. A contact of a spinning body may be out in between by the little that it turns
-  /// on.
-  std::optional<double> time_to_leave(double duration) const {
-    if (farthest_in_flight(duration) <= options_.neighbourhood) return std::nullopt;
-    const auto is_out = [&](double s) {
-      BodyState there = state_;
-      body_.fly(there, s);
-      return !(body_.excursion(there) <= options_.neighbourhood);  // so are numbers that overflow
-    };
-    constexpr int halvings = 60;
-    constexpr double fewest = 64, most = 4096;
-    const int looks = static_cast<int>(std::min(most, fewest + 4 * std::abs(state_.omega) * duration));
-    const double apex = state_.v.y() / body_.gravity();
-    for (int k = 1; k <= looks; ++k) {
-      double low = duration * (k - 1) / looks, high = duration * k / looks;
-      if (low < apex && apex < high && is_out(apex)) high = apex;
-      if (!is_out(high)) continue;
-      for (int i = 0; i < halvings; ++i) {
-        const double middle = 0.5 * (low + high);
-        (is_out(middle) ? high : low) = middle;
-      }
-      return high;
-    }
-    return std::nullopt;
   }
 
   bool still() const { return state_.v.isZero(0) && state_.omega == 0; }
@@ -262,7 +232,7 @@ class Run {
       if (!slides && still() && balanced()) return end(HybridRun::Outcome::rest);
     }
     hold();
-    const ModeChoice choice = choose_mode(body_, state_);
+    const ModeChoice choice = choose_mode(body_, state_, std::exchange(slipping_, -1));
     if (!choice.mode) return end(HybridRun::Outcome::inconsistent);
     if (still() && choice.motion.acceleration.isZero(0) && choice.motion.alpha == 0)
       return end(HybridRun::Outcome::rest);
@@ -303,7 +273,7 @@ class Run {
         if (both) stop();  // with two closed contacts there is one motion: both stop
         return tell(Kind::stops, i);
       case lifts: return tell(Kind::lifts, i);
-      case slips: return tell(Kind::slips, i);
+      case slips: slipping_ = i; return tell(Kind::slips, i);
       case reaches: state_.h[i] = 0; return tell(Kind::reaches, i);
       case leaves: return end(HybridRun::Outcome::left);
       case work:
@@ -318,6 +288,7 @@ class Run {
   HybridRun run_;
   double time_ = 0, lost_ = 0, speed_ = 0, energy_;
   bool ended_ = false;
+  int slipping_ = -1;  ///< the contact whose force has just reached the edge of its friction cone
 };
 
 void require_start(const HybridBody& body, const BodyState& start) {

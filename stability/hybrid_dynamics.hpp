@@ -67,7 +67,7 @@ struct HybridRun {
   BodyState state;  ///< at the end
   std::uint64_t collisions = 0, modes = 0;
   int accumulations = 0, ambiguous = 0;
-  double greatest_excursion = 0;  ///< [m] at events and at the end
+  double greatest_excursion = 0;  ///< [m] on the way; in flight at moments_of_flight (hybrid_flight.hpp)
   double energy_growth = 0;       ///< [m^2/s^2] greatest growth between two events: rounding
 };
 

@@ -25,7 +25,9 @@ struct ModeChoice {
   ModeMotion motion;
   int consistent = 0;  ///< how many are; of several the one that keeps most contacts, rolling before sliding
 };
-/// Among the modes other than rest of all contacts.
-ModeChoice choose_mode(const HybridBody& body, const BodyState& state);
+/// Among the modes other than rest of all contacts. At the edge of the friction cone of a rolling contact rounding
+/// would let it roll on, and end that at once, for ever: as the `slipping` one it rolls only if nothing else is
+/// consistent.
+ModeChoice choose_mode(const HybridBody& body, const BodyState& state, int slipping = -1);
 
 }  // namespace surefoot::stability

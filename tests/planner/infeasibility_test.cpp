@@ -212,6 +212,32 @@ TEST_CASE("no sampled scene with a plan is called impossible, nor a harder one t
   CHECK(hard > test::enough(40));
 }
 
+TEST_CASE("Where the start reaches every foothold of the goal's side, it is the goal that is called impossible",
+          "[infeasible]") {
+  const auto proven = [](const std::string& goal) {
+    const gaits::Scene scene = gaits::parse_scene(
+        "surefoot: 1\nterrain: {friction: 0.6, chains: [{vertices: [[-1, 0], [5, 0]]}]}\n"
+        "robot: {radius_of_gyration: 0.18, reach: [0.25, 0.9], clearance: 0.1}\n"
+        "disturbance: {kappa: 0.1, nu: 0.03}\n"
+        "start: {feet: [{x: -0.5}, {x: 0.1}, {x: -0.2}]}\ngoal: {" +
+            goal + "}\n",
+        "level");
+    return prove_infeasible(scene);
+  };
+  // The ground is walked from end to end: nothing on it is in the way.
+  for (const std::string low : {"com_x: [3, 3.4], com_y: [-0.5, 0.09]", "com_x: [3, 3.4], com_y: [-0.5, -0.2]",
+                                "com_x: [0, 0.2], com_y: [-0.5, -0.2]"}) {
+    const auto reason = proven(low);
+    INFO(low);
+    REQUIRE(reason);
+    INFO(reason->reason);
+    CHECK(reason->reason.starts_with("in the goal, between x = "));
+    CHECK(reason->reason.find("across") == std::string::npos);
+    CHECK(reason->reason.find("clearance 0.1") != std::string::npos);
+  }
+  CHECK_FALSE(proven("com_x: [4.5, 4.7]"));
+}
+
 // ---- bounds -----------------------------------------------------------------------------------------------------
 
 namespace {

@@ -16,7 +16,7 @@ using stability::HybridEvent;
 
 namespace {
 
-constexpr std::string_view ink = "#222", faint = "#666", curve = "#0b5394", grid = "#ccc";
+constexpr std::string_view faint = "#666", curve = "#0b5394", grid = "#ccc";
 constexpr std::string_view flight_fill = "#ffffff", accumulation_fill = "#f6c98f", one_fill = "#d9e8f5",
                            two_fill = "#bfe3d0";
 constexpr double left = 96, right = 24, top = 92, panel = 150, gap = 26, wide = 760;  // [px]

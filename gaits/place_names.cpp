@@ -78,6 +78,8 @@ Ground ground_at(const terrain::Terrain& terrain, const PageRow& row, const Alig
   const Vector2d scale = (opposite - corner).cwiseQuotient(row.window.sizes());  // [px/m]
   const double y = row.window.max().y() - (name.center().y() - corner.y()) / scale.y();
   const auto metres = [&](double px) { return Vector2d(row.window.min().x() + (px - corner.x()) / scale.x(), y); };
+  for (const double px : {name.min().x(), name.max().x()})
+    if (!metres(px).allFinite()) return Ground::covers;  // a plan that stands at the end of all numbers
   for (const double px : {name.min().x(), name.center().x(), name.max().x()})
     if (terrain::solid_around(terrain, AlignedBox2d(metres(px)))) return Ground::covers;
   constexpr double hatch = 8;  // [px] that may be drawn beside the surface

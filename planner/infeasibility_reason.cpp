@@ -78,6 +78,7 @@ class Explainer {
   void place_between(Graph& graph);
   std::set<int> feet_of(const Graph& graph, const std::vector<int>& nodes) const;
   AlignedBox2d box_of(const std::set<int>& pieces) const;
+  bool in_goal() const { return result_.obstacle == Obstacle::goal || way_ == Way::into_goal; }
   std::string goal_words() const;  // as the scene gives it
   std::string place_words() const;
   std::string rule_words(const Rules& rules) const;
@@ -201,7 +202,7 @@ std::string Explainer::goal_words() const {
 }
 
 std::string Explainer::place_words() const {
-  if (result_.obstacle == Obstacle::goal || way_ == Way::into_goal) return goal_words();
+  if (in_goal()) return goal_words();
   std::string words = result_.obstacle == Obstacle::start ? "at the start, " : "";
   const bool by_height = result_.y && (by_height_ || !result_.x || !scene_.goal.com_x);
   const bool flat = result_.y && number(result_.y->first) == number(result_.y->second);
@@ -213,9 +214,9 @@ std::string Explainer::place_words() const {
   return words + ": ";
 }
 
-/// Friction of the footholds at the place.
+/// Friction of the footholds at the place, or within reach of the goal.
 std::string Explainer::friction_words() const {
-  const double reach = result_.obstacle == Obstacle::goal ? scene_.robot.reach_max : 0;
+  const double reach = in_goal() ? scene_.robot.reach_max : 0;
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   const auto meets = [&](const std::optional<Interval>& interval, double a, double b) {
     return !interval || (std::max(a, b) >= interval->first - reach && std::min(a, b) <= interval->second + reach);

@@ -232,7 +232,7 @@ class Run {
       if (!slides && still() && balanced()) return end(HybridRun::Outcome::rest);
     }
     hold();
-    const ModeChoice choice = choose_mode(body_, state_, std::exchange(slipping_, -1));
+    const ModeChoice choice = choose_mode(body_, state_, std::exchange(leaving_, {}));
     if (!choice.mode) return end(HybridRun::Outcome::inconsistent);
     if (still() && choice.motion.acceleration.isZero(0) && choice.motion.alpha == 0)
       return end(HybridRun::Outcome::rest);
@@ -272,8 +272,8 @@ class Run {
         state_.slip[i] = 0;
         if (both) stop();  // with two closed contacts there is one motion: both stop
         return tell(Kind::stops, i);
-      case lifts: return tell(Kind::lifts, i);
-      case slips: slipping_ = i; return tell(Kind::slips, i);
+      case lifts: leaving_ = {i, true}; return tell(Kind::lifts, i);
+      case slips: leaving_ = {i, false}; return tell(Kind::slips, i);
       case reaches: state_.h[i] = 0; return tell(Kind::reaches, i);
       case leaves: return end(HybridRun::Outcome::left);
       case work:
@@ -288,7 +288,7 @@ class Run {
   HybridRun run_;
   double time_ = 0, lost_ = 0, speed_ = 0, energy_;
   bool ended_ = false;
-  int slipping_ = -1;  ///< the contact whose force has just reached the edge of its friction cone
+  Leaving leaving_;  ///< at the next choice of a mode
 };
 
 void require_start(const HybridBody& body, const BodyState& start) {

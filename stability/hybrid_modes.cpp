@@ -55,25 +55,26 @@ bool consistent(const HybridBody& body, const BodyState& state, const ContactMod
   return true;
 }
 
-/// The k-th thing that contact i may do, most contact first; `slips`: it rolls no more.
-std::optional<ContactState> option(const BodyState& state, int i, int k, bool slips) {
+/// The k-th thing that contact i may do, most contact first.
+std::optional<ContactState> option(const BodyState& state, int i, int k, const Leaving& leaving) {
   using enum ContactState;
-  if (!state.closed(i)) return k == 0 ? std::optional(breaks) : std::nullopt;
+  const bool leaves = i == leaving.contact;
+  if (!state.closed(i) || (leaves && leaving.lifts)) return k == 0 ? std::optional(breaks) : std::nullopt;
   if (state.slip[i] != 0) {
     if (k == 0) return state.slip[i] > 0 ? slides_along : slides_against;
     return k == 1 ? std::optional(breaks) : std::nullopt;
   }
   constexpr ContactState all[] = {rolls, slides_along, slides_against, breaks};
-  k += slips;
+  k += leaves;
   return k < 4 ? std::optional(all[k]) : std::nullopt;
 }
 
-ModeChoice choose(const HybridBody& body, const BodyState& state, double slack, int slipping) {
+ModeChoice choose(const HybridBody& body, const BodyState& state, double slack, const Leaving& leaving) {
   ModeChoice choice;
   int kept_most = -1;
-  for (int a = 0; const auto first = option(state, 0, a, slipping == 0); ++a)
+  for (int a = 0; const auto first = option(state, 0, a, leaving); ++a)
     for (int b = 0;; ++b) {
-      const auto second = body.contacts() == 2 ? option(state, 1, b, slipping == 1)
+      const auto second = body.contacts() == 2 ? option(state, 1, b, leaving)
                           : b == 0             ? std::optional(ContactState::breaks)
                                                : std::nullopt;
       if (!second) break;
@@ -137,12 +138,12 @@ std::optional<ModeMotion> motion_in(const HybridBody& body, const BodyState& sta
   return motion;
 }
 
-ModeChoice choose_mode(const HybridBody& body, const BodyState& state, int slipping) {
+ModeChoice choose_mode(const HybridBody& body, const BodyState& state, const Leaving& leaving) {
   // On a boundary between modes rounding may refuse both: then what is within rounding of consistent counts.
   constexpr double rounding = 1e-12;  // of gravity
-  for (const int leaving : {slipping, -1})
+  for (const Leaving& which : {leaving, Leaving{}})
     for (const double slack : {0.0, -rounding * body.gravity()})
-      if (const ModeChoice choice = choose(body, state, slack, leaving); choice.consistent > 0) return choice;
+      if (const ModeChoice choice = choose(body, state, slack, which); choice.consistent > 0) return choice;
   return {};
 }
 

@@ -25,9 +25,14 @@ struct ModeChoice {
   ModeMotion motion;
   int consistent = 0;  ///< how many are; of several the one that keeps most contacts, rolling before sliding
 };
-/// Among the modes other than rest of all contacts. At the edge of the friction cone of a rolling contact rounding
-/// would let it roll on, and end that at once, for ever: as the `slipping` one it rolls only if nothing else is
+/// A contact that has just come to the edge of what it did: of its friction cone where it rolled, of all force where it
+/// lifts. Rounding would let it go on, and end that at once, for ever.
+struct Leaving {
+  int contact = -1;
+  bool lifts = false;
+};
+/// Among the modes other than rest of all contacts. A contact that is leaving does what it did only if nothing else is
 /// consistent.
-ModeChoice choose_mode(const HybridBody& body, const BodyState& state, int slipping = -1);
+ModeChoice choose_mode(const HybridBody& body, const BodyState& state, const Leaving& leaving = {});
 
 }  // namespace surefoot::stability

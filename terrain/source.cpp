@@ -143,7 +143,9 @@ void Source::check_quotes(std::size_t position) const {
 
 bool Source::has_colon_on_next_line(std::size_t position) const {
   const std::size_t end = is_quote(text, position) ? end_of_quoted(text, position) : std::string::npos;
-  const std::size_t next = text.find_first_not_of(" \t\r\n", end);
+  std::size_t next = text.find_first_not_of(" \t\r\n", end);
+  while (next != std::string::npos && text[next] == '#')
+    next = text.find_first_not_of(" \t\r\n", text.find('\n', next));
   return end != std::string::npos && next != std::string::npos && text[next] == ':' && text.find('\n', end) < next;
 }
 

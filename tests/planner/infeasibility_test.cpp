@@ -234,6 +234,7 @@ TEST_CASE("Where the start reaches every foothold of the goal's side, it is the 
     CHECK(reason->reason.starts_with("in the goal, between x = "));
     CHECK(reason->reason.find("across") == std::string::npos);
     CHECK(reason->reason.find("clearance 0.1") != std::string::npos);
+    CHECK(reason->reason.find("at friction 0.6") != std::string::npos);
   }
   CHECK_FALSE(proven("com_x: [4.5, 4.7]"));
 }

@@ -343,6 +343,41 @@ TEST_CASE("A foot whose force reaches the edge of its cone slides, and does not 
       }
 }
 
+TEST_CASE("A foot that lifts is gone until it comes down, and no run of round numbers is undecided", "[hybrid]") {
+  struct Start {
+    std::vector<Contact> contacts;
+    Vector2d com;
+    double rho;
+  };
+  std::vector<Start> starts{
+      {{{{-0.15, 0}, {0, 1}, 0.5}, {{0.1, 0.08}, {-0.5, 1}, 0.1}}, {0.22, 0.46}, 0.3},
+      {{{{-0.26, 0}, {1.4, 1}, 0.1}, {{0.46, 0.08}, {0, 1}, 1}}, {0.09, 0.33}, 0.2},
+  };
+  Sampler sampler(91);
+  const auto round_number = [&](double low, double high) { return std::round(100 * sampler.uniform(low, high)) / 100; };
+  for (int k = 0; k < rounds(200); ++k)
+    starts.push_back(
+        {{{{round_number(-0.5, -0.1), 0}, {round_number(-0.5, 1), 1}, round_number(0.1, 1)},
+          {{round_number(0.1, 0.5), round_number(0, 0.1)}, {round_number(-1, 0.5), 1}, round_number(0.1, 1)}},
+         {round_number(-0.3, 0.3), round_number(0.15, 0.5)},
+         round_number(0.1, 0.3)});
+  HybridOptions options;
+  options.restitution = 0.1, options.neighbourhood = 0.3, options.time_limit = 5;
+  int lifts = 0, undecided = 0;
+  for (const Start& start : starts) {
+    const HybridBody body(start.contacts, start.com, start.rho, g);
+    int lifted = -1;
+    const HybridRun run = simulate(body, body.state_at({0, 0, 0}, {0, 0, 0}), options, [&](const HybridEvent& event) {
+      if (lifted >= 0 && event.kind == HybridEvent::Kind::mode) CHECK(event.mode.at[lifted] == ContactState::breaks);
+      lifted = event.kind == HybridEvent::Kind::lifts ? event.contact : -1;
+      lifts += lifted >= 0;
+    });
+    undecided += run.outcome == HybridRun::Outcome::undecided && run.time < options.time_limit;
+  }
+  CHECK(lifts > rounds(10));
+  CHECK(undecided == 0);
+}
+
 TEST_CASE("Linearised and nonlinear runs agree to the order of the push", "[hybrid]") {
   const auto contacts = feet(0.3, -0.2, 0.5);
   const HybridBody exact(contacts, {0.02, 0.1}, 0.15, g), linear(contacts, {0.02, 0.1}, 0.15, g, true);

@@ -90,6 +90,7 @@ TEST_CASE("traps of the parser are refused with their place", "[document]") {
       {"{\"a\": 1,, \"b\": 2}", "f.yaml:1:9: nothing before the comma; expected a key"},
       {"{, a: 1}", "f.yaml:1:2: nothing before the comma; expected a key"},
       {"{\"a\"\n: 1}", "f.yaml:1:2: this key ends its line; expected its colon on the same line"},
+      {"{\"a\" # c\n # d\n : 1}", "f.yaml:1:2: this key ends its line; expected its colon on the same line"},
       {"[\"a\": 1, {\"a\"\n, : 3}]", "f.yaml:1:11: nothing before the colon; expected a key"},
       {"{: 1}", "f.yaml:1:2: nothing before the colon; expected a key"},
       {"a: 'it''s\n", "f.yaml:1:4: this quote is never closed; expected another '"},

@@ -143,7 +143,7 @@ ModeChoice choose_mode(const HybridBody& body, const BodyState& state, const Lea
   constexpr double rounding = 1e-12;  // of gravity
   for (const Leaving& which : {leaving, Leaving{}})
     for (const double slack : {0.0, -rounding * body.gravity()})
-      if (const ModeChoice choice = choose(body, state, slack, which); choice.consistent > 0) return choice;
+      if (ModeChoice choice = choose(body, state, slack, which); choice.consistent > 0) return choice;
   return {};
 }
 

@@ -8,19 +8,13 @@
 #include "scene_text.hpp"
 
 using nlohmann::json;
+using surefoot::tests::check_untouched;
 using surefoot::tests::with;
 using surefoot::tests::Workplace;
 
 namespace {
 
 const std::string& scene = surefoot::tests::flat_scene;
-
-/// Neither written nor left beside.
-void check_untouched(const Workplace& place, std::ptrdiff_t files) {
-  CHECK(place.read("plan.json") == "precious");
-  CHECK(place.read("plan.svg") == "precious");
-  CHECK(place.count() == files);
-}
 
 }  // namespace
 

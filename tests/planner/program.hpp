@@ -1,6 +1,8 @@
 // Runs the built program on files of a temporary directory, as a user would.
 #pragma once
 
+#include <catch2/catch.hpp>
+#include <cstddef>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -48,5 +50,12 @@ class Workplace {
  private:
   test::ScratchFolder folder_;
 };
+
+/// plan.json and plan.svg, which held "precious", are neither written nor is anything left beside.
+inline void check_untouched(const Workplace& place, std::ptrdiff_t files) {
+  CHECK(place.read("plan.json") == "precious");
+  CHECK(place.read("plan.svg") == "precious");
+  CHECK(place.count() == files);
+}
 
 }  // namespace surefoot::tests

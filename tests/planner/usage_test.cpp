@@ -6,18 +6,12 @@
 #include "program.hpp"
 #include "scene_text.hpp"
 
+using surefoot::tests::check_untouched;
 using surefoot::tests::Workplace;
 
 namespace {
 
 const std::string& scene = surefoot::tests::flat_scene;
-
-/// Neither written nor left beside.
-void check_untouched(const Workplace& place, std::ptrdiff_t files) {
-  CHECK(place.read("plan.json") == "precious");
-  CHECK(place.read("plan.svg") == "precious");
-  CHECK(place.count() == files);
-}
 
 }  // namespace
 
